@@ -1,0 +1,78 @@
+#pragma once
+
+#include <mrpt/poses/CPose3D.h>
+
+#include <array>
+#include <string>
+
+#include "paloc/core/export.h"
+#include "paloc/core/scan.h"
+
+namespace paloc {
+
+/// What the map says of one direction of the pose.
+enum class DirectionClass { kFull, kPartial, kNone };
+
+/// One of the six directions of a match: three of position, three of rotation.
+struct MatchDirection {
+  Vec3 axis_body = Vec3::Zero();  ///< unit vector in the body frame: of translation or of rotation
+  DirectionClass cls = DirectionClass::kNone;
+  double share = 0;        ///< correspondences that constrain it over those of the best direction, 0..1
+  double probability = 0;  ///< that its information stands out of the noise, 0..1
+  double sigma = 0;        ///< standard deviation along it given the others free (m or rad)
+};
+
+/// Why a scan gave no map factor.
+enum class MatchRefusal {
+  kNone,
+  kNoScan,
+  kTooFewPoints,
+  kOutsideMap,
+  kTooFewInliers,
+  kLowOverlap,
+  kHighResidual,
+  kLargeStep,
+  kNotConverged,
+  kNotVerified,
+};
+
+/// One or two words for tables ("low overlap").
+PALOC_EXPORT std::string toString(MatchRefusal refusal);
+
+/// The answer of a prior map to a scan.
+struct MapMatch {
+  MatchRefusal refusal = MatchRefusal::kNotConverged;
+  mrpt::poses::CPose3D T_map_body;
+  /// Information (6 x 6) of the pose: tangent [position in the map frame, rotation on the right],
+  /// 1/m2, 1/(m rad), 1/rad2. Rank-deficient where the map does not fix a direction.
+  Mat6 information = Mat6::Zero();
+  std::array<MatchDirection, 6> directions;  ///< 0..2 position, 3..5 rotation
+
+  int points = 0;        ///< points of the filtered scan that were tried
+  int matched = 0;       ///< points that found a plane of the map
+  int inliers = 0;       ///< matched points whose residual lies within the gate
+  double overlap = 0;    ///< matched over tried, 0..1
+  double residual_rms_m = 0;     ///< of the inliers
+  double residual_median_m = 0;  ///< of the absolute residuals of the matched
+  double spectrum_score = 0;     ///< D_e of the paper, normalised; large is degenerate
+  int iterations = 0;
+
+  bool accepted() const { return refusal == MatchRefusal::kNone; }
+};
+
+/// Port: a prior map that scans are registered to. Implemented in map/.
+class PALOC_EXPORT MapMatcher {
+ public:
+  virtual ~MapMatcher() = default;
+
+  /// Registers a scan from a good guess (a prediction: centimetres, tenths of a degree).
+  /// `guess_sigma_position` (m) and `guess_sigma_rotation` (rad) bound the step that is believed.
+  virtual MapMatch match(const Scan& scan, const mrpt::poses::CPose3D& T_map_body_guess,
+                         double guess_sigma_position, double guess_sigma_rotation) = 0;
+
+  /// Registers a scan from a rough pose (up to about 1 m and 10 degrees away), verified before it is
+  /// believed: a refusal says why it is not.
+  virtual MapMatch locate(const Scan& scan, const mrpt::poses::CPose3D& T_map_body_rough) = 0;
+};
+
+}  // namespace paloc

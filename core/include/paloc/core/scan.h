@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "paloc/core/time.h"
+#include "paloc/core/types.h"
+
+namespace paloc {
+
+/// A LiDAR scan as the estimator sees it: undistorted to `end_ns`, in the body frame.
+struct Scan {
+  TimeNs start_ns = 0;  ///< stamp of the first point
+  TimeNs end_ns = 0;    ///< the instant that the points are deskewed to; the node's time
+  std::vector<Point3f> points_body;         ///< finite, m
+  Vec3 sensor_position_body = Vec3::Zero();  ///< where the rays start (m)
+};
+
+}  // namespace paloc

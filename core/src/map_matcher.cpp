@@ -1,0 +1,31 @@
+#include "paloc/core/map_matcher.h"
+
+namespace paloc {
+
+std::string toString(MatchRefusal refusal) {
+  switch (refusal) {
+    case MatchRefusal::kNone:
+      return "accepted";
+    case MatchRefusal::kNoScan:
+      return "no scan";
+    case MatchRefusal::kTooFewPoints:
+      return "too few points";
+    case MatchRefusal::kOutsideMap:
+      return "outside the map";
+    case MatchRefusal::kTooFewInliers:
+      return "too few inliers";
+    case MatchRefusal::kLowOverlap:
+      return "low overlap";
+    case MatchRefusal::kHighResidual:
+      return "high residual";
+    case MatchRefusal::kLargeStep:
+      return "large step";
+    case MatchRefusal::kNotConverged:
+      return "not converged";
+    case MatchRefusal::kNotVerified:
+      return "not verified";
+  }
+  return "unknown";
+}
+
+}  // namespace paloc

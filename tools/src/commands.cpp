@@ -1,0 +1,10 @@
+#include "paloc/tools/commands.h"
+
+namespace paloc {
+
+std::vector<std::unique_ptr<Command>> allCommands() {
+  std::vector<std::unique_ptr<Command>> commands;
+  return commands;
+}
+
+}  // namespace paloc
