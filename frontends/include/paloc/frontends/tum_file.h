@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "paloc/core/export.h"
@@ -25,7 +27,8 @@ PALOC_EXPORT std::vector<StampedPose> readTum(const std::filesystem::path& file)
 PALOC_EXPORT std::string tumLine(const StampedPose& pose);
 
 /// Writes a whole trajectory; throws IoError if the file cannot be written completely.
-PALOC_EXPORT void writeTum(const std::filesystem::path& file, const std::vector<StampedPose>& poses);
+PALOC_EXPORT void writeTum(const std::filesystem::path& file,
+                           const std::vector<StampedPose>& poses);
 
 /// A decimal number of seconds ("1645002364.537699938") as nanoseconds, exactly, without a detour
 /// through double. Returns false on anything but a finite decimal number (an exponent is allowed).
