@@ -19,7 +19,8 @@ void redirect(const std::string& file, int descriptor) {
   if (opened < 0 || dup2(opened, descriptor) < 0) _exit(126);
 }
 
-[[noreturn]] void becomeProgram(const std::string& program, const std::vector<std::string>& arguments,
+[[noreturn]] void becomeProgram(const std::string& program,
+                                const std::vector<std::string>& arguments,
                                 const std::string& folder, const TempDir& output) {
   redirect(output / "out", STDOUT_FILENO);
   redirect(output / "err", STDERR_FILENO);

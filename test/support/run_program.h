@@ -14,7 +14,7 @@ struct ProgramRun {
 };
 
 struct ProgramOptions {
-  std::string folder;  ///< to run in; empty: the test's own
+  std::string folder;          ///< to run in; empty: the test's own
   int interrupt_after_ms = 0;  ///< send Ctrl-C (SIGINT) after this long; 0: never
   int timeout_s = 120;         ///< then it is killed, which shows as signal 9
 };

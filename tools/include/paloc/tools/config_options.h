@@ -16,9 +16,9 @@ class ConfigOptions {
  public:
   void registerOn(CLI::App& command);
 
-  /// The defaults, overlaid by the files in their order, then by the single values. A file that does
-  /// not exist, but is the name of a preset ("sensors/vlp-16"), is taken from those installed with
-  /// the program. Throws ConfigError.
+  /// The defaults, overlaid by the files in their order, then by the single values. A file that
+  /// does not exist, but is the name of a preset ("sensors/vlp-16"), is taken from those installed
+  /// with the program. Throws ConfigError.
   Config load() const;
 
  private:
