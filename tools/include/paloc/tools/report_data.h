@@ -47,19 +47,20 @@ struct ReportData {
   std::vector<std::string> notes;         ///< sentences for the user
 
   std::vector<ReportStage> stages;
-  double wall_time_s = 0;         ///< of the whole run; 0 if not measured
-  double recording_time_s = 0;    ///< that was replayed; 0: the trajectory's own time span
-  double peak_rss_mb = 0;         ///< 0 if not measured
+  double wall_time_s = 0;       ///< of the whole run; 0 if not measured
+  double recording_time_s = 0;  ///< that was replayed; 0: the trajectory's own time span
+  double peak_rss_mb = 0;       ///< 0 if not measured
 
   std::vector<ReportInput> inputs;
-  std::string settings_yaml;                                     ///< the effective configuration
-  std::string command_line;                                      ///< that makes this result again
-  std::vector<std::pair<std::string, std::string>> versions;     ///< ("paloc", "0.1.0"), ...
-  std::vector<std::pair<std::string, std::string>> output_files; ///< (name, what it holds)
+  std::string settings_yaml;                                      ///< the effective configuration
+  std::string command_line;                                       ///< that makes this result again
+  std::vector<std::pair<std::string, std::string>> versions;      ///< ("paloc", "0.1.0"), ...
+  std::vector<std::pair<std::string, std::string>> output_files;  ///< (name, what it holds)
 };
 
 /// Writes one self-contained HTML file: figures are inline SVG, no script, nothing from elsewhere.
-/// An empty trajectory gives a report that says why. Throws IoError if it cannot be written completely.
+/// An empty trajectory gives a report that says why. Throws IoError if it cannot be written
+/// completely.
 void writeReport(const std::filesystem::path& file, const ReportData& data);
 
 }  // namespace paloc
