@@ -9,8 +9,8 @@ namespace {
 // d(theta_body) = E d(yaw, pitch, roll) for R = Rz(yaw) Ry(pitch) Rx(roll).
 Mat3 bodyRateOfEulerAngles(double pitch, double roll) {
   Mat3 e;
-  e << -std::sin(pitch), 0, 1,                                        //
-      std::cos(pitch) * std::sin(roll), std::cos(roll), 0,            //
+  e << -std::sin(pitch), 0, 1,                              //
+      std::cos(pitch) * std::sin(roll), std::cos(roll), 0,  //
       std::cos(pitch) * std::cos(roll), -std::sin(roll), 0;
   return e;
 }

@@ -16,8 +16,18 @@ Vec3 randomDirection(std::mt19937_64& rng) {
 }
 
 // Angles that matter: the series, the switch to the closed form, the middle, and next to pi.
-const double kAngles[] = {0,    1e-12, 1e-7, 0.9e-4, 1.1e-4, 1e-3, 0.1,
-                          1.0,  2.0,   3.0,  std::numbers::pi - 1e-3, std::numbers::pi - 1e-7};
+const double kAngles[] = {0,
+                          1e-12,
+                          1e-7,
+                          0.9e-4,
+                          1.1e-4,
+                          1e-3,
+                          0.1,
+                          1.0,
+                          2.0,
+                          3.0,
+                          std::numbers::pi - 1e-3,
+                          std::numbers::pi - 1e-7};
 
 TEST(So3, LogInvertsExp) {
   std::mt19937_64 rng(1);

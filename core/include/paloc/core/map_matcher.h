@@ -17,7 +17,7 @@ enum class DirectionClass { kFull, kPartial, kNone };
 struct MatchDirection {
   Vec3 axis_body = Vec3::Zero();  ///< unit vector in the body frame: of translation or of rotation
   DirectionClass cls = DirectionClass::kNone;
-  double share = 0;        ///< correspondences that constrain it over those of the best direction, 0..1
+  double share = 0;  ///< correspondences that constrain it over those of the best direction, 0..1
   double probability = 0;  ///< that its information stands out of the noise, 0..1
   double sigma = 0;        ///< standard deviation along it given the others free (m or rad)
 };
@@ -48,10 +48,10 @@ struct MapMatch {
   Mat6 information = Mat6::Zero();
   std::array<MatchDirection, 6> directions;  ///< 0..2 position, 3..5 rotation
 
-  int points = 0;        ///< points of the filtered scan that were tried
-  int matched = 0;       ///< points that found a plane of the map
-  int inliers = 0;       ///< matched points whose residual lies within the gate
-  double overlap = 0;    ///< matched over tried, 0..1
+  int points = 0;                ///< points of the filtered scan that were tried
+  int matched = 0;               ///< points that found a plane of the map
+  int inliers = 0;               ///< matched points whose residual lies within the gate
+  double overlap = 0;            ///< matched over tried, 0..1
   double residual_rms_m = 0;     ///< of the inliers
   double residual_median_m = 0;  ///< of the absolute residuals of the matched
   double spectrum_score = 0;     ///< D_e of the paper, normalised; large is degenerate
@@ -70,8 +70,8 @@ class PALOC_EXPORT MapMatcher {
   virtual MapMatch match(const Scan& scan, const mrpt::poses::CPose3D& T_map_body_guess,
                          double guess_sigma_position, double guess_sigma_rotation) = 0;
 
-  /// Registers a scan from a rough pose (up to about 1 m and 10 degrees away), verified before it is
-  /// believed: a refusal says why it is not.
+  /// Registers a scan from a rough pose (up to about 1 m and 10 degrees away), verified before it
+  /// is believed: a refusal says why it is not.
   virtual MapMatch locate(const Scan& scan, const mrpt::poses::CPose3D& T_map_body_rough) = 0;
 };
 

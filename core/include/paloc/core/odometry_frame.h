@@ -17,8 +17,9 @@ struct OdometryFrame {
   /// Whether `T_odom_body` and the one of the frame before belong to one uninterrupted stream, so
   /// that the motion between them is a measurement.
   bool continues = false;
-  /// Covariance (6 x 6) of the motion T_last_body^-1 T_odom_body since the last frame, in the tangent
-  /// space [position in the last body frame (m), rotation on the right (rad)]. Meaningful if `continues`.
+  /// Covariance (6 x 6) of the motion T_last_body^-1 T_odom_body since the last frame, in the
+  /// tangent space [position in the last body frame (m), rotation on the right (rad)]. Meaningful
+  /// if `continues`.
   Mat6 motion_covariance = Mat6::Zero();
   std::shared_ptr<const Scan> scan;  ///< may be null: a frame without a usable scan
 };

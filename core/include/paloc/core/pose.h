@@ -24,7 +24,8 @@ inline Pose boxplus(const Pose& pose, const Vec6& delta) {
   return {pose.position + delta.head<3>(), pose.rotation * so3::exp(delta.tail<3>())};
 }
 
-/// The tangent vector (6, [m, rad]) that leads from `from` to `to`: boxplus(from, boxminus(to, from)) == to.
+/// The tangent vector (6, [m, rad]) that leads from `from` to `to`: boxplus(from, boxminus(to,
+/// from)) == to.
 inline Vec6 boxminus(const Pose& to, const Pose& from) {
   Vec6 delta;
   delta.head<3>() = to.position - from.position;

@@ -11,7 +11,7 @@ namespace paloc {
 struct Scan {
   TimeNs start_ns = 0;  ///< stamp of the first point
   TimeNs end_ns = 0;    ///< the instant that the points are deskewed to; the node's time
-  std::vector<Point3f> points_body;         ///< finite, m
+  std::vector<Point3f> points_body;          ///< finite, m
   Vec3 sensor_position_body = Vec3::Zero();  ///< where the rays start (m)
 };
 

@@ -4,8 +4,8 @@
 #include "paloc/core/types.h"
 
 /// Functions of the rotation group SO(3). Angles in rad. Sources: Sola et al., "A micro Lie theory
-/// for state estimation in robotics" (2018), section IV and appendix B; Forster et al., "On-Manifold
-/// Preintegration" (2017), equations 3 to 10.
+/// for state estimation in robotics" (2018), section IV and appendix B; Forster et al.,
+/// "On-Manifold Preintegration" (2017), equations 3 to 10.
 namespace paloc::so3 {
 
 /// The skew-symmetric matrix of v: hat(v) * u = v x u.

@@ -30,12 +30,12 @@ PALOC_EXPORT std::string toString(PoseFlag flag);
 struct TrajectoryPoint {
   TimeNs t_ns = 0;
   mrpt::poses::CPose3D T_map_body;
-  Vec3 v_map = Vec3::Zero();        ///< m/s
-  Vec3 bias_acc = Vec3::Zero();     ///< m/s2, body frame
-  Vec3 bias_gyro = Vec3::Zero();    ///< rad/s, body frame
+  Vec3 v_map = Vec3::Zero();          ///< m/s
+  Vec3 bias_acc = Vec3::Zero();       ///< m/s2, body frame
+  Vec3 bias_gyro = Vec3::Zero();      ///< rad/s, body frame
   Vec3 gravity_map = -Vec3::UnitZ();  ///< direction of gravity, points down
-  Mat6 covariance = Mat6::Zero();   ///< tangent [position in map (m), rotation on the right (rad)]
-  Vec3 v_sigma = Vec3::Zero();          ///< standard deviations of v_map (m/s)
+  Mat6 covariance = Mat6::Zero();  ///< tangent [position in map (m), rotation on the right (rad)]
+  Vec3 v_sigma = Vec3::Zero();     ///< standard deviations of v_map (m/s)
   Vec3 bias_acc_sigma = Vec3::Zero();   ///< m/s2
   Vec3 bias_gyro_sigma = Vec3::Zero();  ///< rad/s
   PoseFlag flag = PoseFlag::kLost;
@@ -46,7 +46,7 @@ struct TrajectoryPoint {
 struct FrameDiagnostics {
   TimeNs scan_start_ns = 0;
   TimeNs t_ns = 0;
-  MapMatch match;                   ///< refused, with the reason, where there was no map factor
+  MapMatch match;  ///< refused, with the reason, where there was no map factor
   Vec3 guess_step_position = Vec3::Zero();  ///< match minus prediction, map frame (m)
   double guess_step_rotation = 0;           ///< rad
   bool has_odometry_factor = false;
@@ -57,19 +57,19 @@ struct FrameDiagnostics {
 
 /// Counts of repairs that the smoothers made.
 struct RepairCounts {
-  std::uint64_t damped = 0;          ///< information was not positive definite: damping added
-  std::uint64_t factors_dropped = 0; ///< measurements that were not finite or absurd
-  std::uint64_t reanchored = 0;      ///< the window had to start anew
+  std::uint64_t damped = 0;           ///< information was not positive definite: damping added
+  std::uint64_t factors_dropped = 0;  ///< measurements that were not finite or absurd
+  std::uint64_t reanchored = 0;       ///< the window had to start anew
   std::uint64_t total() const { return damped + factors_dropped + reanchored; }
 };
 
 /// Everything that a run of the estimator leaves.
 struct Result {
-  std::vector<TrajectoryPoint> trajectory;      ///< in order of time; the one to use
-  std::vector<TrajectoryPoint> online;          ///< as it left the fixed-lag window
-  std::vector<FrameDiagnostics> diagnostics;    ///< one per odometry frame, same order
+  std::vector<TrajectoryPoint> trajectory;    ///< in order of time; the one to use
+  std::vector<TrajectoryPoint> online;        ///< as it left the fixed-lag window
+  std::vector<FrameDiagnostics> diagnostics;  ///< one per odometry frame, same order
   RepairCounts repairs;
-  std::string no_trajectory_reason;  ///< one sentence if `trajectory` is empty
+  std::string no_trajectory_reason;       ///< one sentence if `trajectory` is empty
   std::uint64_t frames_before_start = 0;  ///< odometry frames before the first pose was found
 };
 
