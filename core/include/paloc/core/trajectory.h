@@ -69,7 +69,8 @@ struct Result {
   std::vector<TrajectoryPoint> online;        ///< as it left the fixed-lag window
   std::vector<FrameDiagnostics> diagnostics;  ///< one per odometry frame, same order
   RepairCounts repairs;
-  std::string no_trajectory_reason;       ///< one sentence if `trajectory` is empty
+  std::string no_trajectory_reason;  ///< one sentence if `trajectory` is empty
+  bool batch_failed = false;  ///< `trajectory` is the online one, since smoothing at the end failed
   std::uint64_t frames_before_start = 0;  ///< odometry frames before the first pose was found
 };
 

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "paloc/core/imu_noise.h"
+#include "paloc/core/smoother_settings.h"
+
+namespace paloc {
+
+/// Settings of the trajectory generator.
+struct EstimatorSettings {
+  ImuNoise imu;
+  SmootherSettings smoother;
+
+  double gravity_mps2 = 9.80665;  ///< local strength of gravity
+  double max_imu_gap_s = 0.05;    ///< samples further apart are not integrated over
+
+  // What is known before the first scan, as standard deviations.
+  double prior_sigma_velocity_mps = 2.0;
+  double prior_sigma_bias_acc_mps2 = 0.1;
+  double prior_sigma_bias_gyro_radps = 0.01;
+  double prior_sigma_gravity_direction_rad = 0.01;  ///< of the map's own tilt
+  double prior_sigma_gravity_magnitude = 0.001;     ///< relative
+
+  double gravity_walk_sqrthz = 1e-6;   ///< random walk of the gravity direction, 1/sqrt(Hz)
+  double velocity_sigma_mps = 0.5;     ///< of the mean velocity where no IMU data joins two nodes
+  double map_robust_width = 4.0;       ///< Huber's, of the map factor, in standard deviations
+  double odometry_robust_width = 4.0;  ///< likewise of the odometry factor
+
+  /// The same surfaces with the same errors are seen by so many scans in a row: the information of
+  /// each is divided by it.
+  double map_correlated_scans = 5.0;
+
+  int max_start_attempts = 50;  ///< scans tried from the initial pose before giving up
+  int relocate_after_refusals =
+      10;                          ///< map factors refused in a row before a start is searched anew
+  double coasting_after_s = 0.35;  ///< a pose further from any map factor is flagged as coasting
+  double lost_sigma_position_m = 0.5;  ///< a pose less certain than this is flagged as lost
+};
+
+}  // namespace paloc

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "paloc/core/estimator_settings.h"
+#include "paloc/core/fixed_lag_smoother.h"
+#include "paloc/core/imu_buffer.h"
+#include "paloc/core/map_matcher.h"
+#include "paloc/core/odometry_frame.h"
+#include "paloc/core/stage_timer.h"
+#include "paloc/core/trajectory.h"
+#include "paloc/core/unused_counts.h"
+
+namespace paloc {
+
+/// The estimator: odometry frames and IMU samples in, a trajectory in the map's frame out. One node
+/// of a fixed-lag smoother per frame; at the end all nodes are smoothed at once.
+class PALOC_EXPORT TrajectoryGenerator {
+ public:
+  TrajectoryGenerator(const EstimatorSettings& settings, std::shared_ptr<MapMatcher> matcher);
+  ~TrajectoryGenerator();
+
+  /// The body's pose in the map at the first frame, roughly (up to about 1 m and 10 degrees off):
+  /// it is refined by registration, and refused with a reason if that is not convincing.
+  void setInitialPose(const mrpt::poses::CPose3D& T_map_body);
+  /// Told of the stages "match", "preintegrate", "smooth" and "batch"; may be null.
+  void setStageTimer(StageTimer* timer) { timer_ = timer; }
+
+  /// In order of time. Trouble in the data is counted, never thrown.
+  void add(const FrontendEvent& event);
+
+  /// Poses that have left the fixed-lag window since the last call, oldest first.
+  std::vector<TrajectoryPoint> takeOnline();
+  /// What happened at the last frame; null before the first.
+  const FrameDiagnostics* lastFrame() const;
+  bool started() const { return !history_.empty(); }
+  const UnusedCounts& unused() const { return unused_; }
+
+  /// Smooths the whole recording and returns everything. Call it once, at the end.
+  Result finish();
+
+ private:
+  struct HistoryNode {
+    ChainNode node;                 // with the factors as they were given, for the batch
+    std::size_t diagnostics_index;  // its row
+  };
+
+  void addImu(const ImuSample& sample);
+  void addFrame(const OdometryFrame& frame);
+  void tryStart(const OdometryFrame& frame);
+  void start(const OdometryFrame& frame, const MapMatch& match);
+  void advance(const OdometryFrame& frame);
+  MapMatch matchScan(const OdometryFrame& frame, const State& predicted, double dt_s);
+  void addEdgeFactors(const OdometryFrame& frame, const std::optional<ImuFactor>& imu, double dt_s,
+                      ChainNode& node, FrameDiagnostics& row) const;
+  void addMapFactor(const MapMatch& match, ChainNode& node) const;
+  void append(ChainNode node, FrameDiagnostics row);
+  void collectLeft();
+  TrajectoryPoint pointOf(const NodeEstimate& estimate, std::size_t history_index) const;
+  std::vector<TrajectoryPoint> smoothAll();
+  void setFlags(std::vector<TrajectoryPoint>& points) const;
+
+  EstimatorSettings settings_;
+  std::shared_ptr<MapMatcher> matcher_;
+  StageTimer* timer_ = nullptr;
+  ImuBuffer imu_;
+  FixedLagSmoother smoother_;
+  std::optional<Pose> T_map_body_initial_;
+  std::optional<Pose> T_odom_body_first_;  // of the first frame, which the initial pose belongs to
+  Pose T_odom_body_last_;
+  Pose motion_since_first_;
+  int start_attempts_ = 0;
+  int refusals_in_a_row_ = 0;
+  MatchRefusal last_start_refusal_ = MatchRefusal::kNone;
+  std::vector<HistoryNode> history_;
+  std::vector<TrajectoryPoint> online_;
+  std::size_t online_taken_ = 0;
+  std::vector<FrameDiagnostics> diagnostics_;
+  UnusedCounts unused_;
+};
+
+}  // namespace paloc

@@ -1,0 +1,289 @@
+#include "paloc/core/trajectory_generator.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "paloc/core/batch_smoother.h"
+#include "paloc/core/mrpt_pose.h"
+#include "paloc/core/pose_flags.h"
+#include "paloc/core/start_prior.h"
+
+namespace paloc {
+namespace {
+
+constexpr double kMinGuessSigmaPosition = 0.03;  // m: registration may always correct this much
+constexpr double kMinGuessSigmaRotation = 0.01;  // rad
+
+double rootOfTrace(const StateMatrix& covariance, int offset) {
+  return std::sqrt(std::max(0.0, covariance.diagonal().segment<3>(offset).sum()));
+}
+
+State predictWithoutImu(const State& last, const OdometryFrame& frame, const Pose& motion,
+                        double dt_s) {
+  State predicted = last;
+  if (frame.continues) {
+    predicted.T_map_body = last.T_map_body * motion;
+    predicted.v_map = (predicted.T_map_body.position - last.T_map_body.position) / dt_s;
+  } else {
+    predicted.T_map_body.position += last.v_map * dt_s;
+  }
+  return predicted;
+}
+
+}  // namespace
+
+TrajectoryGenerator::TrajectoryGenerator(const EstimatorSettings& settings,
+                                         std::shared_ptr<MapMatcher> matcher)
+    : settings_(settings), matcher_(std::move(matcher)), smoother_(settings.smoother) {}
+
+TrajectoryGenerator::~TrajectoryGenerator() = default;
+
+void TrajectoryGenerator::setInitialPose(const mrpt::poses::CPose3D& T_map_body) {
+  T_map_body_initial_ = fromMrpt(T_map_body);
+}
+
+void TrajectoryGenerator::add(const FrontendEvent& event) {
+  if (const auto* sample = std::get_if<ImuSample>(&event)) {
+    addImu(*sample);
+  } else {
+    addFrame(std::get<OdometryFrame>(event));
+  }
+}
+
+void TrajectoryGenerator::addImu(const ImuSample& sample) {
+  if (!imu_.add(sample))
+    unused_.add("ImuSample", "estimator", "not newer than the last, or not finite");
+}
+
+void TrajectoryGenerator::addFrame(const OdometryFrame& frame) {
+  if (!history_.empty() && frame.t_ns <= history_.back().node.t_ns) {
+    unused_.add("OdometryFrame", "estimator", "not newer than the last");
+    return;
+  }
+  if (history_.empty()) {
+    tryStart(frame);
+  } else {
+    advance(frame);
+  }
+  T_odom_body_last_ = fromMrpt(frame.T_odom_body);
+}
+
+// The rough pose belongs to the first frame; until a start is believed, odometry carries it on.
+void TrajectoryGenerator::tryStart(const OdometryFrame& frame) {
+  if (!T_odom_body_first_) {
+    T_odom_body_first_ = fromMrpt(frame.T_odom_body);
+  } else if (frame.continues) {
+    motion_since_first_ =
+        motion_since_first_ * (T_odom_body_last_.inverse() * fromMrpt(frame.T_odom_body));
+  }
+  FrameDiagnostics row;
+  row.t_ns = row.scan_start_ns = frame.t_ns;
+  row.match.refusal = MatchRefusal::kNoScan;
+  if (frame.scan) row.scan_start_ns = frame.scan->start_ns;
+  if (T_map_body_initial_ && frame.scan && start_attempts_ < settings_.max_start_attempts) {
+    ++start_attempts_;
+    StageScope stage(timer_, "locate");
+    const Pose rough = *T_map_body_initial_ * motion_since_first_;
+    row.match = matcher_->locate(*frame.scan, toMrpt(rough));
+    last_start_refusal_ = row.match.refusal;
+    const Vec6 step = boxminus(fromMrpt(row.match.T_map_body), rough);
+    row.guess_step_position = step.head<3>();
+    row.guess_step_rotation = step.tail<3>().norm();
+  }
+  diagnostics_.push_back(row);
+  if (row.match.accepted()) start(frame, row.match);
+}
+
+void TrajectoryGenerator::start(const OdometryFrame& frame, const MapMatch& match) {
+  ChainNode node;
+  node.t_ns = frame.t_ns;
+  node.state.T_map_body = fromMrpt(match.T_map_body);
+  node.node_factors.push_back(startPrior(node.state, settings_));
+  addMapFactor(match, node);
+  if (smoother_.add(node).status == UpdateSummary::Status::kRefused) return;
+  history_.push_back({std::move(node), diagnostics_.size() - 1});
+}
+
+void TrajectoryGenerator::advance(const OdometryFrame& frame) {
+  const NodeEstimate last = smoother_.newest();
+  const double dt_s = secondsBetween(last.t_ns, frame.t_ns);
+  const Pose motion = T_odom_body_last_.inverse() * fromMrpt(frame.T_odom_body);
+  std::optional<ImuFactor> imu;
+  {
+    StageScope stage(timer_, "preintegrate");
+    if (const auto p = imu_.integrate(last.t_ns, frame.t_ns, settings_.max_imu_gap_s, settings_.imu,
+                                      last.state.bias_acc, last.state.bias_gyro)) {
+      imu.emplace(*p, settings_.gravity_mps2);
+    }
+    imu_.forgetBefore(frame.t_ns);
+  }
+  ChainNode node;
+  node.t_ns = frame.t_ns;
+  node.state = imu ? imu->predict(last.state) : predictWithoutImu(last.state, frame, motion, dt_s);
+
+  FrameDiagnostics row;
+  row.t_ns = frame.t_ns;
+  row.scan_start_ns = frame.scan ? frame.scan->start_ns : frame.t_ns;
+  row.match = matchScan(frame, node.state, dt_s);
+  const Vec6 step = boxminus(fromMrpt(row.match.T_map_body), node.state.T_map_body);
+  row.guess_step_position = step.head<3>();
+  row.guess_step_rotation = step.tail<3>().norm();
+  addEdgeFactors(frame, imu, dt_s, node, row);
+  if (row.match.accepted()) addMapFactor(row.match, node);
+  append(std::move(node), row);
+}
+
+MapMatch TrajectoryGenerator::matchScan(const OdometryFrame& frame, const State& predicted,
+                                        double dt_s) {
+  MapMatch match;
+  match.refusal = MatchRefusal::kNoScan;
+  match.T_map_body = toMrpt(predicted.T_map_body);
+  if (!frame.scan) return match;
+  StageScope stage(timer_, "match");
+  const StateMatrix covariance = smoother_.newest().covariance;
+  const double sigma_position =
+      std::max(kMinGuessSigmaPosition, rootOfTrace(covariance, tangent::kPosition) +
+                                           rootOfTrace(covariance, tangent::kVelocity) * dt_s);
+  const double sigma_rotation =
+      std::max(kMinGuessSigmaRotation, rootOfTrace(covariance, tangent::kRotation));
+  match =
+      matcher_->match(*frame.scan, toMrpt(predicted.T_map_body), sigma_position, sigma_rotation);
+  if (!match.accepted() && refusals_in_a_row_ >= settings_.relocate_after_refusals) {
+    match = matcher_->locate(*frame.scan, toMrpt(predicted.T_map_body));
+  }
+  refusals_in_a_row_ = match.accepted() ? 0 : refusals_in_a_row_ + 1;
+  return match;
+}
+
+void TrajectoryGenerator::addEdgeFactors(const OdometryFrame& frame,
+                                         const std::optional<ImuFactor>& imu, double dt_s,
+                                         ChainNode& node, FrameDiagnostics& row) const {
+  if (imu) {
+    node.edge_factors.push_back(*imu);
+  } else {
+    node.edge_factors.push_back(VelocityFactor(dt_s, settings_.velocity_sigma_mps));
+  }
+  node.edge_factors.push_back(BiasWalkFactor(settings_.imu, dt_s));
+  node.edge_factors.push_back(ConstantGravityFactor(settings_.gravity_walk_sqrthz, dt_s));
+  if (frame.continues) {
+    const Pose motion = T_odom_body_last_.inverse() * fromMrpt(frame.T_odom_body);
+    const RobustKernel kernel{RobustKernel::Kind::kHuber, settings_.odometry_robust_width};
+    node.edge_factors.push_back(LidarOdometryFactor(motion, frame.motion_covariance, kernel));
+  }
+  row.has_imu_factor = imu.has_value();
+  row.has_odometry_factor = frame.continues;
+}
+
+void TrajectoryGenerator::addMapFactor(const MapMatch& match, ChainNode& node) const {
+  const RobustKernel kernel{RobustKernel::Kind::kHuber, settings_.map_robust_width};
+  node.node_factors.push_back(MapFactor(
+      fromMrpt(match.T_map_body), match.information / settings_.map_correlated_scans, kernel));
+}
+
+void TrajectoryGenerator::append(ChainNode node, FrameDiagnostics row) {
+  const std::uint64_t repairs_before = smoother_.repairs().total();
+  {
+    StageScope stage(timer_, "smooth");
+    if (smoother_.add(node).status == UpdateSummary::Status::kRefused) {
+      unused_.add("OdometryFrame", "estimator", "refused by the smoother");
+      return;
+    }
+  }
+  row.repairs = static_cast<int>(smoother_.repairs().total() - repairs_before);
+  diagnostics_.push_back(row);
+  history_.push_back({std::move(node), diagnostics_.size() - 1});
+  collectLeft();
+}
+
+// Estimates of nodes that left the window are the online result, and the batch's first guess.
+void TrajectoryGenerator::collectLeft() {
+  for (const NodeEstimate& left : smoother_.takeLeft()) {
+    const auto index = static_cast<std::size_t>(left.id);
+    history_[index].node.state = left.state;
+    online_.push_back(pointOf(left, index));
+  }
+}
+
+TrajectoryPoint TrajectoryGenerator::pointOf(const NodeEstimate& estimate,
+                                             std::size_t history_index) const {
+  const auto sigma = [&](int offset) -> Vec3 {
+    return estimate.covariance.diagonal().segment<3>(offset).cwiseMax(0.0).cwiseSqrt();
+  };
+  TrajectoryPoint point;
+  point.t_ns = estimate.t_ns;
+  point.T_map_body = toMrpt(estimate.state.T_map_body);
+  point.v_map = estimate.state.v_map;
+  point.bias_acc = estimate.state.bias_acc;
+  point.bias_gyro = estimate.state.bias_gyro;
+  point.gravity_map = estimate.state.gravity_map;
+  point.covariance = estimate.covariance.topLeftCorner<6, 6>();
+  point.v_sigma = sigma(tangent::kVelocity);
+  point.bias_acc_sigma = sigma(tangent::kBiasAcc);
+  point.bias_gyro_sigma = sigma(tangent::kBiasGyro);
+  const MapMatch& match = diagnostics_[history_[history_index].diagnostics_index].match;
+  for (std::size_t d = 0; d < 6; ++d) {
+    point.directions[d] = match.accepted() ? match.directions[d].cls : DirectionClass::kNone;
+  }
+  return point;
+}
+
+std::vector<TrajectoryPoint> TrajectoryGenerator::takeOnline() {
+  const auto from = online_.begin() + static_cast<std::ptrdiff_t>(online_taken_);
+  std::vector<TrajectoryPoint> result(from, online_.end());
+  online_taken_ = online_.size();
+  return result;
+}
+
+const FrameDiagnostics* TrajectoryGenerator::lastFrame() const {
+  return diagnostics_.empty() ? nullptr : &diagnostics_.back();
+}
+
+std::vector<TrajectoryPoint> TrajectoryGenerator::smoothAll() {
+  StageScope stage(timer_, "batch");
+  std::vector<ChainNode> nodes;
+  nodes.reserve(history_.size());
+  for (const HistoryNode& entry : history_) nodes.push_back(entry.node);
+  const BatchSummary batch = smoothBatch(nodes, settings_.smoother);
+  std::vector<TrajectoryPoint> points;
+  if (batch.status == BatchSummary::Status::kFailed) return points;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    points.push_back(pointOf({k, nodes[k].t_ns, nodes[k].state, batch.covariances[k]}, k));
+  }
+  return points;
+}
+
+Result TrajectoryGenerator::finish() {
+  for (const NodeEstimate& rest : smoother_.window(true)) {
+    const auto index = static_cast<std::size_t>(rest.id);
+    history_[index].node.state = rest.state;
+    online_.push_back(pointOf(rest, index));
+  }
+  Result result;
+  result.trajectory = smoothAll();
+  if (result.trajectory.empty() && !online_.empty()) {
+    result.batch_failed = true;
+    result.trajectory = online_;
+  }
+  setFlags(online_);
+  setFlags(result.trajectory);
+  result.online = online_;
+  result.diagnostics = diagnostics_;
+  result.repairs = smoother_.repairs();
+  result.frames_before_start =
+      history_.empty() ? diagnostics_.size() : history_[0].diagnostics_index;
+  if (result.trajectory.empty()) {
+    result.no_trajectory_reason = noTrajectoryReason(
+        diagnostics_.size(), T_map_body_initial_.has_value(), start_attempts_, last_start_refusal_);
+  }
+  return result;
+}
+
+void TrajectoryGenerator::setFlags(std::vector<TrajectoryPoint>& points) const {
+  std::vector<bool> has_map_factor;
+  for (const HistoryNode& entry : history_) {
+    has_map_factor.push_back(diagnostics_[entry.diagnostics_index].match.accepted());
+  }
+  setPoseFlags(has_map_factor, settings_, points);
+}
+
+}  // namespace paloc
