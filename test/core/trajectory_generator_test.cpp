@@ -1,0 +1,187 @@
+#include "paloc/core/trajectory_generator.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <random>
+
+#include "paloc/core/mrpt_pose.h"
+#include "smooth_motion.h"
+
+namespace paloc {
+namespace {
+
+constexpr double kFrame_s = 0.1;
+constexpr double kMapSigma_m = 0.02;
+constexpr double kMapSigma_rad = 0.004;
+
+/// A map that knows the truth, up to noise, except when `available` says that it does not.
+class TruthMatcher : public MapMatcher {
+ public:
+  explicit TruthMatcher(const test::SmoothMotion& motion) : motion_(motion) {}
+
+  MapMatch match(const Scan& scan, const mrpt::poses::CPose3D& guess, double sigma_position,
+                 double) override {
+    MapMatch m = answer(scan);
+    const Vec6 step = boxminus(fromMrpt(m.T_map_body), fromMrpt(guess));
+    if (m.accepted() && step.head<3>().norm() > 5 * sigma_position + 0.2) {
+      m.refusal = MatchRefusal::kLargeStep;
+    }
+    return m;
+  }
+  MapMatch locate(const Scan& scan, const mrpt::poses::CPose3D&) override { return answer(scan); }
+
+  std::function<bool(double)> available = [](double) { return true; };
+  bool degenerate = false;
+
+ private:
+  MapMatch answer(const Scan& scan) {
+    const double t = secondsBetween(0, scan.end_ns);
+    Vec6 noise;
+    noise << kMapSigma_m * normal3(), kMapSigma_rad * normal3();
+    MapMatch m;
+    m.refusal = available(t) ? MatchRefusal::kNone : MatchRefusal::kLowOverlap;
+    m.T_map_body = toMrpt(boxplus(motion_.pose(t), noise));
+    m.information.diagonal() << Vec3::Constant(1 / (kMapSigma_m * kMapSigma_m)),
+        Vec3::Constant(1 / (kMapSigma_rad * kMapSigma_rad));
+    for (auto& direction : m.directions) direction.cls = DirectionClass::kFull;
+    if (degenerate) m.directions[0].cls = DirectionClass::kNone;
+    return m;
+  }
+  Vec3 normal3() { return {normal_(rng_), normal_(rng_), normal_(rng_)}; }
+
+  const test::SmoothMotion& motion_;
+  std::mt19937_64 rng_{7};
+  std::normal_distribution<double> normal_;
+};
+
+struct Simulation {
+  test::SmoothMotion motion;
+  std::shared_ptr<TruthMatcher> matcher = std::make_shared<TruthMatcher>(motion);
+  EstimatorSettings settings;
+  bool with_imu = true, with_odometry = true, with_initial_pose = true;
+  double duration_s = 20;
+
+  Simulation() {
+    motion.bias_acc = Vec3(0.03, -0.02, 0.05);
+    motion.bias_gyro = Vec3(0.001, 0.002, -0.001);
+    settings.map_correlated_scans = 1;
+  }
+
+  Result run() {
+    TrajectoryGenerator generator(settings, matcher);
+    if (with_initial_pose) generator.setInitialPose(toMrpt(motion.pose(kFrame_s)));
+    const int steps_per_frame = 20;
+    const double step = kFrame_s / steps_per_frame;
+    const int frames = static_cast<int>(duration_s / kFrame_s);
+    for (int f = 0; f <= frames; ++f) {
+      for (int k = 0; k < steps_per_frame && with_imu; ++k) {
+        generator.add(motion.imu(f * kFrame_s + k * step));
+      }
+      if (f == 0) continue;
+      if (with_imu) generator.add(motion.imu((f + 1) * kFrame_s));
+      generator.add(frameAt(f));
+    }
+    return generator.finish();
+  }
+
+  OdometryFrame frameAt(int f) const {
+    OdometryFrame frame;
+    frame.t_ns = nsFromSeconds(f * kFrame_s);
+    frame.T_odom_body = toMrpt(motion.pose(kFrame_s).inverse() * motion.pose(f * kFrame_s));
+    frame.continues = with_odometry && f > 1;
+    frame.motion_covariance.diagonal() << Vec3::Constant(1e-4), Vec3::Constant(1e-5);
+    auto scan = std::make_shared<Scan>();
+    scan->end_ns = frame.t_ns;
+    frame.scan = scan;
+    return frame;
+  }
+
+  double rmse(const std::vector<TrajectoryPoint>& points) const {
+    double sum = 0;
+    for (const TrajectoryPoint& p : points) {
+      const Pose truth = motion.pose(secondsBetween(0, p.t_ns));
+      sum += (fromMrpt(p.T_map_body).position - truth.position).squaredNorm();
+    }
+    return std::sqrt(sum / static_cast<double>(points.size()));
+  }
+};
+
+TEST(TrajectoryGenerator, SmoothsFarBelowTheMapsNoise) {
+  Simulation simulation;
+  const Result result = simulation.run();
+  ASSERT_EQ(result.trajectory.size(), 200u);
+  ASSERT_EQ(result.online.size(), 200u);
+  EXPECT_LT(simulation.rmse(result.trajectory), 0.3 * kMapSigma_m);
+  EXPECT_LT(simulation.rmse(result.online), 0.5 * kMapSigma_m);
+  EXPECT_EQ(result.repairs.total(), 0u);
+  for (const TrajectoryPoint& p : result.trajectory) EXPECT_EQ(p.flag, PoseFlag::kGood);
+  const TrajectoryPoint& last = result.trajectory.back();
+  EXPECT_LT((last.bias_acc - simulation.motion.bias_acc).norm(), 5 * last.bias_acc_sigma.norm());
+  EXPECT_LT((last.bias_gyro - simulation.motion.bias_gyro).norm(), 5 * last.bias_gyro_sigma.norm());
+}
+
+TEST(TrajectoryGenerator, CoastsThroughAHoleInTheMapAndSaysSo) {
+  Simulation simulation;
+  simulation.matcher->available = [](double t) { return t < 8 || t > 11; };
+  const Result result = simulation.run();
+  ASSERT_EQ(result.trajectory.size(), 200u);
+  EXPECT_LT(simulation.rmse(result.trajectory), kMapSigma_m);
+  double sigma_before = 0, sigma_inside = 0;
+  for (const TrajectoryPoint& p : result.trajectory) {
+    const double t = secondsBetween(0, p.t_ns);
+    EXPECT_EQ(p.flag, t > 8.4 && t < 10.6   ? PoseFlag::kCoasting
+                      : t > 7.9 && t < 11.1 ? p.flag
+                                            : PoseFlag::kGood)
+        << t;
+    if (std::abs(t - 7) < 0.05) sigma_before = std::sqrt(p.covariance(0, 0));
+    if (std::abs(t - 9.5) < 0.05) sigma_inside = std::sqrt(p.covariance(0, 0));
+  }
+  EXPECT_GT(sigma_inside, 1.2 * sigma_before);
+}
+
+TEST(TrajectoryGenerator, WorksWithoutImuOrWithoutOdometry) {
+  Simulation without_imu;
+  without_imu.with_imu = false;
+  const Result a = without_imu.run();
+  ASSERT_EQ(a.trajectory.size(), 200u);
+  EXPECT_LT(without_imu.rmse(a.trajectory), kMapSigma_m);
+  Simulation without_odometry;
+  without_odometry.with_odometry = false;
+  const Result b = without_odometry.run();
+  ASSERT_EQ(b.trajectory.size(), 200u);
+  EXPECT_LT(without_odometry.rmse(b.trajectory), 0.5 * kMapSigma_m);
+}
+
+TEST(TrajectoryGenerator, FlagsDegenerateDirections) {
+  Simulation simulation;
+  simulation.matcher->degenerate = true;
+  simulation.duration_s = 3;
+  for (const TrajectoryPoint& p : simulation.run().trajectory) EXPECT_EQ(p.flag, PoseFlag::kDegenerate);
+}
+
+TEST(TrajectoryGenerator, SaysWhyThereIsNoTrajectory) {
+  Simulation simulation;
+  simulation.duration_s = 3;
+  simulation.with_initial_pose = false;
+  Result result = simulation.run();
+  EXPECT_TRUE(result.trajectory.empty());
+  EXPECT_NE(result.no_trajectory_reason.find("--init-pose"), std::string::npos);
+  simulation.with_initial_pose = true;
+  simulation.matcher->available = [](double) { return false; };
+  result = simulation.run();
+  EXPECT_TRUE(result.trajectory.empty());
+  EXPECT_NE(result.no_trajectory_reason.find("low overlap"), std::string::npos);
+}
+
+TEST(TrajectoryGenerator, StartsLateWhenTheFirstScansAreRefused) {
+  Simulation simulation;
+  simulation.matcher->available = [](double t) { return t > 2; };
+  const Result result = simulation.run();
+  EXPECT_EQ(result.frames_before_start, 20u);
+  EXPECT_EQ(result.trajectory.size(), 180u);
+  EXPECT_LT(simulation.rmse(result.trajectory), kMapSigma_m);
+}
+
+}  // namespace
+}  // namespace paloc
