@@ -63,7 +63,7 @@ void checkRange(const Setting& setting, const SettingValue& value) {
 }
 
 SettingValue parseValue(const Setting& setting, std::string_view text) {
-  const SettingValue value = std::visit(Parser{text}, setting.get(Config{}));
+  SettingValue value = std::visit(Parser{text}, setting.get(Config{}));
   checkRange(setting, value);
   return value;
 }

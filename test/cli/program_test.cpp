@@ -63,7 +63,7 @@ TEST(Program, HelpOfEverySubcommandHasAnExampleOfIt) {
   ASSERT_FALSE(leaves.empty());
   for (auto words : leaves) {
     const std::string call = "paloc " + joined(words);
-    words.push_back("--help");
+    words.emplace_back("--help");
     const ProgramRun run = runPaloc(words);
     EXPECT_EQ(run.exit_code, 0) << call;
     EXPECT_NE(run.out.find("Example"), std::string::npos) << call;

@@ -11,7 +11,7 @@ cmake --install "$build" --prefix "$work/first" >"$work/log" || { cat "$work/log
 # An installation may be moved: nothing in it may name the prefix it was made for, or this tree.
 mv "$work/first" "$work/prefix"
 cp "$here/CMakeLists.txt" "$here/main.cpp" "$work/"
-cmake -S "$work" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_BUILD_TYPE=Release \
+cmake -G Ninja -S "$work" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_BUILD_TYPE=Release \
   >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 cmake --build "$work/build" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 "$work/build/consumer"
