@@ -4,7 +4,8 @@ namespace paloc {
 
 std::vector<Setting> frontendSettings() {
   using S = FrontendSettings;
-  Section<S> s("frontend", &Config::frontend);
+  Section s(
+      "frontend", [](auto& config) -> auto& { return config.frontend; });
   s.text("lidar_label", &S::lidar_label,
          "Sensor label of the scans; empty takes the only LiDAR there is.");
   s.text("imu_label", &S::imu_label, "Sensor label of the IMU; empty takes the only one there is.");

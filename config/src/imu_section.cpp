@@ -4,7 +4,8 @@ namespace paloc {
 
 std::vector<Setting> imuSettings() {
   using S = ImuNoise;
-  Section<S> s("imu", &Config::imu);
+  Section s(
+      "imu", [](auto& config) -> auto& { return config.estimator.imu; });
   s.number("accelerometer_noise_density_mps2_sqrthz", &S::accelerometer_noise_density_mps2_sqrthz,
            "m/s2/sqrt(Hz)", {1e-7, 10}, "White noise of the accelerometer, from the data sheet.");
   s.number("gyroscope_noise_density_radps_sqrthz", &S::gyroscope_noise_density_radps_sqrthz,

@@ -4,7 +4,8 @@ namespace paloc {
 
 std::vector<Setting> mapSettings() {
   using S = MapSettings;
-  Section<S> s("map", &Config::map);
+  Section s(
+      "map", [](auto& config) -> auto& { return config.map; });
   s.number("voxel_m", &S::voxel_m, "m", {0, 10},
            "The map is thinned to this on loading; 0 keeps every point.");
   s.count("plane_neighbours", &S::plane_neighbours, {4, 200}, "Points that a plane is fitted to.");

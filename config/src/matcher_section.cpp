@@ -4,7 +4,8 @@ namespace paloc {
 
 std::vector<Setting> matcherSettings() {
   using S = MatcherSettings;
-  Section<S> s("matcher", &Config::matcher);
+  Section s(
+      "matcher", [](auto& config) -> auto& { return config.matcher; });
   s.number("scan_voxel_m", &S::scan_voxel_m, "m", {0.01, 10},
            "Edge of the voxels that a scan is thinned with.");
   s.count("max_points", &S::max_points, {100, 1000000}, "Points of a scan kept after thinning.");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -13,12 +14,14 @@ struct Range {
   double min = 0, max = 0;
 };
 
-/// Builds the rows of one section: `Struct` is the module's struct of settings, `member` its place
-/// in the configuration.
-template <typename Struct>
+/// Builds the rows of one section. `place` takes a configuration, const or not, to the module's
+/// struct of settings in it.
+template <typename Place>
 class Section {
  public:
-  Section(std::string name, Struct Config::*member) : name_(std::move(name)), member_(member) {}
+  using Struct = std::remove_cvref_t<std::invoke_result_t<Place, Config&>>;
+
+  Section(std::string name, Place place) : name_(std::move(name)), place_(place) {}
 
   void number(const char* key, double Struct::*field, const char* unit, Range range,
               const char* sentence) {
@@ -42,27 +45,31 @@ class Section {
   template <typename T>
   void add(const char* key, T Struct::*field, const char* unit, Range range, const char* sentence) {
     Setting row;
-    row.key = name_ + "." + key;
+    row.key = name_;
+    row.key += '.';
+    row.key += key;
     row.unit = unit;
     row.min = range.min;
     row.max = range.max;
     row.sentence = sentence;
-    row.get = [member = member_, field](const Config& c) { return SettingValue(c.*member.*field); };
-    row.set = [member = member_, field](Config& c, const SettingValue& value) {
-      c.*member.*field = std::get<T>(value);
+    row.get = [place = place_, field](const Config& c) { return SettingValue(place(c).*field); };
+    row.set = [place = place_, field](Config& c, const SettingValue& value) {
+      place(c).*field = std::get<T>(value);
     };
     rows_.push_back(std::move(row));
   }
 
   std::string name_;
-  Struct Config::*member_;
+  Place place_;
   std::vector<Setting> rows_;
 };
 
 // One maker a section, each in its own file.
+std::vector<Setting> estimatorSettings();
 std::vector<Setting> frontendSettings();
 std::vector<Setting> imuSettings();
 std::vector<Setting> mapSettings();
 std::vector<Setting> matcherSettings();
+std::vector<Setting> smootherSettings();
 
 }  // namespace paloc

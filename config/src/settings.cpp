@@ -11,7 +11,8 @@ namespace {
 
 std::vector<Setting> buildTable() {
   std::vector<Setting> table;
-  for (auto section : {frontendSettings, imuSettings, mapSettings, matcherSettings}) {
+  for (auto section : {frontendSettings, imuSettings, mapSettings, matcherSettings,
+                       smootherSettings, estimatorSettings}) {
     for (Setting& row : section()) table.push_back(std::move(row));
   }
   return table;

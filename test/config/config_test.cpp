@@ -231,6 +231,9 @@ TEST(SettingsTable, HasARowForEveryField) {
   EXPECT_EQ(rowsOf("imu"), test::fieldCount<ImuNoise>());
   EXPECT_EQ(rowsOf("map"), test::fieldCount<MapSettings>());
   EXPECT_EQ(rowsOf("matcher"), test::fieldCount<MatcherSettings>());
+  EXPECT_EQ(rowsOf("smoother"), test::fieldCount<SmootherSettings>());
+  // Two of its fields are the sections imu and smoother.
+  EXPECT_EQ(rowsOf("estimator"), test::fieldCount<EstimatorSettings>() - 2);
 }
 
 TEST(SettingsTable, EachRowIsItsOwnFieldAndSaysWhatItIs) {
@@ -251,6 +254,7 @@ TEST(SettingsTable, UnitsStandAtTheEndOfTheKeys) {
                                                       {"m/s", "_mps"},
                                                       {"rad/s", "_radps"},
                                                       {"m/s2", "_mps2"},
+                                                      {"1/sqrt(Hz)", "_sqrthz"},
                                                       {"m/s2/sqrt(Hz)", "_mps2_sqrthz"},
                                                       {"rad/s/sqrt(Hz)", "_radps_sqrthz"},
                                                       {"m/s3/sqrt(Hz)", "_mps3_sqrthz"},

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "paloc/core/estimator_settings.h"
 #include "paloc/core/export.h"
-#include "paloc/core/imu_noise.h"
 #include "paloc/frontends/frontend_settings.h"
 #include "paloc/map/map_settings.h"
 #include "paloc/map/matcher_settings.h"
@@ -16,9 +16,9 @@ namespace paloc {
 /// end of the names. What may be set from a file is listed in settings.h, one row per field.
 struct Config {
   FrontendSettings frontend;
-  ImuNoise imu;
   MapSettings map;
   MatcherSettings matcher;
+  EstimatorSettings estimator;  ///< its parts `imu` and `smoother` are sections of their own
 };
 
 /// Reads a YAML file over the defaults. Strict: throws ConfigError ("file:line: key: what is

@@ -1,0 +1,43 @@
+#include "section.h"
+
+namespace paloc {
+
+std::vector<Setting> estimatorSettings() {
+  using S = EstimatorSettings;
+  Section s(
+      "estimator", [](auto& config) -> auto& { return config.estimator; });
+  s.number("gravity_mps2", &S::gravity_mps2, "m/s2", {9.5, 10.1}, "Local strength of gravity.");
+  s.number("max_imu_gap_s", &S::max_imu_gap_s, "s", {1e-3, 10},
+           "IMU samples further apart than this are not integrated over between states.");
+  s.number("prior_sigma_velocity_mps", &S::prior_sigma_velocity_mps, "m/s", {1e-6, 1000},
+           "Standard deviation of the velocity before the first scan, about zero.");
+  s.number("prior_sigma_bias_acc_mps2", &S::prior_sigma_bias_acc_mps2, "m/s2", {1e-9, 100},
+           "Standard deviation of the accelerometer's bias before the first scan.");
+  s.number("prior_sigma_bias_gyro_radps", &S::prior_sigma_bias_gyro_radps, "rad/s", {1e-9, 10},
+           "Standard deviation of the gyroscope's bias before the first scan.");
+  s.number("prior_sigma_gravity_direction_rad", &S::prior_sigma_gravity_direction_rad, "rad",
+           {1e-9, 4}, "Standard deviation of the map's own tilt against gravity.");
+  s.number("prior_sigma_gravity_magnitude", &S::prior_sigma_gravity_magnitude, "", {1e-9, 1},
+           "Standard deviation of the strength of gravity, relative.");
+  s.number("gravity_walk_sqrthz", &S::gravity_walk_sqrthz, "1/sqrt(Hz)", {1e-12, 1},
+           "Random walk of the direction of gravity, a unit vector.");
+  s.number("velocity_sigma_mps", &S::velocity_sigma_mps, "m/s", {1e-6, 1000},
+           "Standard deviation of the mean velocity where no IMU data joins two states.");
+  s.number("map_robust_width", &S::map_robust_width, "", {0.1, 1e6},
+           "Width of the map factor's Huber kernel, in standard deviations.");
+  s.number("odometry_robust_width", &S::odometry_robust_width, "", {0.1, 1e6},
+           "Width of the odometry factor's Huber kernel, in standard deviations.");
+  s.number("map_correlated_scans", &S::map_correlated_scans, "", {1, 1000},
+           "Scans in a row that share their errors: the information of each is divided by it.");
+  s.count("max_start_attempts", &S::max_start_attempts, {1, 1000000},
+          "Scans tried from the initial pose before giving up.");
+  s.count("relocate_after_refusals", &S::relocate_after_refusals, {1, 1000000},
+          "Map factors refused in a row before a start is searched anew.");
+  s.number("coasting_after_s", &S::coasting_after_s, "s", {0, 3600},
+           "A pose further from any map factor is flagged as coasting.");
+  s.number("lost_sigma_position_m", &S::lost_sigma_position_m, "m", {1e-3, 1000},
+           "A pose less certain than this is flagged as lost.");
+  return std::move(s).rows();
+}
+
+}  // namespace paloc
