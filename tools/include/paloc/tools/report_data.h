@@ -40,8 +40,10 @@ struct ReportData {
   Result result;
   bool interrupted = false;  ///< the run was stopped by the user before the recording's end
 
-  /// Points of the prior map, map frame (m), about 200,000 of them: the picture's background.
+  /// Points of the prior map, about 200,000 of them: the pictures' background. In the map frame
+  /// (m), relative to `map_origin`, as in PointCloud.
   std::vector<Point3f> map_points;
+  Vec3 map_origin = Vec3::Zero();
 
   std::vector<UnusedCounts::Row> unused;  ///< observations not used, and why
   std::vector<std::string> notes;         ///< sentences for the user
