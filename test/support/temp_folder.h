@@ -36,6 +36,7 @@ class TempFolder {
   std::filesystem::path write(const std::string& name, std::string_view bytes) const {
     const auto file = path_ / name;
     std::filesystem::create_directories(file.parent_path());
+    std::filesystem::remove(file);  // ext4 flushes a file that is truncated and written anew
     std::ofstream(file, std::ios::binary) << bytes;
     return file;
   }

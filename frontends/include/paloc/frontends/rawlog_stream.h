@@ -2,6 +2,7 @@
 
 #include <mrpt/obs/CObservation.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -30,7 +31,7 @@ class PALOC_EXPORT RawlogStream {
   mrpt::obs::CObservation::Ptr next();
 
   End end() const;
-  const std::string& error() const;   ///< one sentence; empty unless damaged
+  const std::string& error() const;  ///< one sentence; empty unless damaged
   std::uint64_t objectsRead() const;
   /// Share of the file's bytes read so far, 0..1.
   double progress() const;
@@ -46,14 +47,16 @@ class PALOC_EXPORT RawlogWriter {
   enum class Compression { kNone, kGzip };
 
   /// Throws IoError if the file cannot be created.
-  explicit RawlogWriter(const std::filesystem::path& file, Compression compression = Compression::kNone);
+  explicit RawlogWriter(const std::filesystem::path& file,
+                        Compression compression = Compression::kNone);
   ~RawlogWriter();
   RawlogWriter(const RawlogWriter&) = delete;
   RawlogWriter& operator=(const RawlogWriter&) = delete;
 
   /// Throws IoError when the disk is full.
   void write(const mrpt::obs::CObservation& observation);
-  /// Closes and checks that all bytes arrived. Throws IoError if not. MRPT's own close says nothing.
+  /// Closes and checks that all bytes arrived. Throws IoError if not. MRPT's own close says
+  /// nothing.
   void close();
 
  private:
