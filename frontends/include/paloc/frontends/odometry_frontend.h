@@ -2,6 +2,7 @@
 
 #include <mrpt/obs/CObservation.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,7 +16,8 @@ namespace paloc {
 struct FrontendSettings;
 
 /// An odometry: MRPT observations in, odometry frames and IMU samples out. It never sees the map's
-/// answer. Feed observations in the order of the recording; after each, take events until there are none.
+/// answer. Feed observations in the order of the recording; after each, take events until there are
+/// none.
 class PALOC_EXPORT OdometryFrontend {
  public:
   using Ptr = std::unique_ptr<OdometryFrontend>;
@@ -24,12 +26,20 @@ class PALOC_EXPORT OdometryFrontend {
   /// that exist, if there is none.
   static Ptr create(const std::string& name, const FrontendSettings& settings);
 
+  using Factory = std::function<Ptr(const FrontendSettings&)>;
+  /// Makes a front-end known by name; a shared library does so when it is loaded. Throws
+  /// ConfigError if the name is taken.
+  static void registerFrontend(const std::string& name, Factory factory);
+  static std::vector<std::string> names();  ///< those registered, in order of the alphabet
+
   virtual ~OdometryFrontend() = default;
 
   virtual void add(const mrpt::obs::CObservation& observation) = 0;
   /// No more observations come: what waits for later data is now given out or counted.
   virtual void finish() = 0;
-  /// The next event, in order of time, or nothing when more observations are needed.
+  /// The next event, in order of time, or nothing when more observations are needed. The IMU
+  /// samples up to and including the first at or after a frame's `t_ns` precede the frame, where
+  /// the recording has them: a state at the frame's time can then be interpolated.
   virtual std::optional<FrontendEvent> next() = 0;
 
   /// What was not used so far, and why.
