@@ -26,32 +26,38 @@ void Preintegration::integrate(const Vec3& acc_body, const Vec3& omega_body, dou
   const Vec3 turn = (omega_body - bias_gyro) * dt;
   const Mat3 step_R = so3::exp(turn);
   const Mat3 step_Jr = so3::rightJacobian(turn);
-  const Mat3 step_v = delta_R * step_Jr.transpose() * dt;  // left Jacobian = right one transposed
-  const Mat3 step_p = delta_R * doubleIntegralOfRotation(turn) * (dt * dt);
+  // The step's velocity and displacement per unit of force, in its first body frame.
+  const Mat3 integral = step_Jr.transpose() * dt;  // left Jacobian = right one transposed
+  const Mat3 double_integral = doubleIntegralOfRotation(turn) * (dt * dt);
+  const Vec3 step_v = integral * acc, step_p = double_integral * acc;
+  // By an error of the rotation before the step.
+  const Mat3 v_by_rotation = -delta_R * so3::hat(step_v);
+  const Mat3 p_by_rotation = -delta_R * so3::hat(step_p);
 
-  propagateCovariance(acc, step_R, step_Jr, dt);
+  propagateCovariance(p_by_rotation, v_by_rotation, step_R, step_Jr, dt);
 
-  const Mat3 R_acc_hat = delta_R * so3::hat(acc);
-  dp_dbias_acc += dv_dbias_acc * dt - step_p;
-  dp_dbias_gyro += dv_dbias_gyro * dt - (0.5 * dt * dt) * R_acc_hat * dR_dbias_gyro +
-                   (dt * dt * dt / 6) * R_acc_hat;
-  dv_dbias_acc -= step_v;
-  dv_dbias_gyro += -dt * R_acc_hat * dR_dbias_gyro + (0.5 * dt * dt) * R_acc_hat;
+  // By the turn within the step, to first order in it: with u = turn,
+  // d(integral a) = -(hat(a) / 2 + (hat(u) hat(a) + hat(u x a)) / 6 + ..) du.
+  const Mat3 acc_hat = so3::hat(acc);
+  const Mat3 curl = so3::hat(turn) * acc_hat + so3::hat(turn.cross(acc));
+  dp_dbias_gyro += dv_dbias_gyro * dt + p_by_rotation * dR_dbias_gyro +
+                   (dt * dt * dt) * (delta_R * (acc_hat / 6 + curl / 24));
+  dv_dbias_gyro += v_by_rotation * dR_dbias_gyro + (dt * dt) * (delta_R * (acc_hat / 2 + curl / 6));
+  dp_dbias_acc += dv_dbias_acc * dt - delta_R * double_integral;
+  dv_dbias_acc -= delta_R * integral;
   dR_dbias_gyro = step_R.transpose() * dR_dbias_gyro - step_Jr * dt;
 
-  delta_p += delta_v * dt + step_p * acc;
-  delta_v += step_v * acc;
+  delta_p += delta_v * dt + delta_R * step_p;
+  delta_v += delta_R * step_v;
   delta_R = delta_R * step_R;
   dt_s += dt;
 }
 
-void Preintegration::propagateCovariance(const Vec3& acc_body, const Mat3& step_R,
+// A: position by rotation, C: velocity by rotation.
+void Preintegration::propagateCovariance(const Mat3& A, const Mat3& C, const Mat3& step_R,
                                          const Mat3& step_Jr, double dt) {
   // Error of the step in terms of the error before it and of the sample's white noise; by blocks of
   // F = [I A dt; 0 B 0; 0 C I], since most of the 9 x 9 matrix is zero.
-  const Mat3 R_acc_hat = delta_R * so3::hat(acc_body);
-  const Mat3 C = -dt * R_acc_hat;     // velocity by rotation
-  const Mat3 A = (0.5 * dt) * C;      // position by rotation
   const Mat3 B = step_R.transpose();  // rotation by rotation
   Covariance left;                    // F P
   left.topRows<3>() =
