@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "paloc/core/export.h"
+#include "paloc/core/types.h"
+
+namespace paloc {
+
+/// Thins a scan: of the points in each cubic voxel, the one nearest to their centroid is kept. (The
+/// centroid itself would lie off both surfaces in the voxel of an edge.) Deterministic: the result
+/// depends on the points and their order alone, voxels come in the order of their first point, and
+/// of two points equally near the first wins. Keeps its hash table from call to call; one
+/// object serves one thread.
+class PALOC_EXPORT VoxelFilter {
+ public:
+  /// The points kept, as indices. `voxel_m` > 0. Voxels are numbered from the origin of the points
+  /// with 21 bits an axis; what lies further than 2^20 voxels away shares the outermost one.
+  std::vector<std::uint32_t> select(std::span<const Point3f> points, double voxel_m);
+
+  /// The same, with at most `max_points` kept (at least 1): where `finest_voxel_m` leaves more,
+  /// the voxel is grown until it does not, so that the points stay evenly spread over the surfaces,
+  /// near and far.
+  std::vector<std::uint32_t> selectAtMost(std::span<const Point3f> points, double finest_voxel_m,
+                                          std::size_t max_points);
+
+ private:
+  struct Cell {
+    double x = 0, y = 0, z = 0;  // sums
+    std::uint32_t count = 0;
+    std::uint32_t best = 0;
+    double best_sq = 0;
+  };
+
+  void hashPoints(std::span<const Point3f> points, double voxel_m);
+
+  std::vector<std::uint64_t> keys_;          // of the slots
+  std::vector<std::uint32_t> slots_;         // cell + 1; 0 is free
+  std::vector<std::uint32_t> cell_of_;       // of each point
+  std::vector<Cell> cells_;
+};
+
+}  // namespace paloc

@@ -1,0 +1,155 @@
+#include "paloc/map/degeneracy.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace paloc {
+namespace {
+
+constexpr double kConstrainingCosine = 0.5;
+constexpr double kSignalToNoise = 10;
+constexpr double kFullShare = 0.1;
+constexpr double kFull = 0.95, kNone = 0.05;
+constexpr double kUnknownInformation = 1e-12;  // keeps the sigma of a free direction finite
+
+constexpr int kTranslation = 0, kRotation = 3;  // offsets in the tangent
+
+// The inverse of a symmetric positive semidefinite block on the space where it is not zero.
+Mat3 pseudoInverse(const Mat3& block) {
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(block);
+  const double smallest = 1e-12 * std::max(solver.eigenvalues()[2], 1e-300);
+  Vec3 inverse = Vec3::Zero();
+  for (int i = 0; i < 3; ++i) {
+    if (solver.eigenvalues()[i] > smallest) inverse[i] = 1 / solver.eigenvalues()[i];
+  }
+  return solver.eigenvectors() * inverse.asDiagonal() * solver.eigenvectors().transpose();
+}
+
+// The three by three block of one kind with the other kind eliminated, and how the other follows.
+struct Reduced {
+  Mat3 schur;
+  Mat3 follow;  // other = follow * own
+};
+
+Reduced reduce(const Mat6& information, int own) {
+  const int other = kRotation - own;
+  const Mat3 other_inverse = pseudoInverse(information.block<3, 3>(other, other));
+  const Mat3 cross = information.block<3, 3>(other, own);
+  Reduced reduced;
+  reduced.follow = -other_inverse * cross;
+  reduced.schur = information.block<3, 3>(own, own) + cross.transpose() * reduced.follow;
+  reduced.schur = (0.5 * (reduced.schur + reduced.schur.transpose())).eval();
+  return reduced;
+}
+
+struct Support {
+  double count = 0;  // of constraining points
+  double signal = 0, noise_mean = 0, variance = 0;
+};
+
+Support measureSupport(std::span<const PlaneRow> rows, const Vec3& v, const Vec3& w,
+                       const DegeneracyNoise& noise) {
+  Support support;
+  const double point_var = noise.point_sigma_m * noise.point_sigma_m;
+  const double floor_var = noise.normal_sigma_rad * noise.normal_sigma_rad;
+  for (const PlaneRow& row : rows) {
+    const Vec3 motion = v + w.cross(row.point_body);
+    const double along = row.normal_body.dot(motion);
+    const double along_sq = along * along, motion_sq = motion.squaredNorm();
+    const double normal_var = floor_var + row.normal_sigma * row.normal_sigma;
+    const double noise_var = normal_var * std::max(motion_sq - along_sq, 0.0) +
+                             point_var * w.cross(row.normal_body).squaredNorm();
+    const double weight = 1 / row.variance;
+    support.signal += weight * along_sq;
+    support.noise_mean += weight * noise_var;
+    // Of the square of a normal variable with mean `along`.
+    support.variance += weight * weight * noise_var * (2 * noise_var + 4 * along_sq);
+    if (along_sq > kConstrainingCosine * kConstrainingCosine * motion_sq) support.count += 1;
+  }
+  return support;
+}
+
+double informativeProbability(const Support& support) {
+  if (support.signal <= 0) return 0;
+  const double excess = support.signal - (1 + kSignalToNoise) * support.noise_mean;
+  const double sigma = std::sqrt(support.variance);
+  if (sigma <= 0) return excess > 0 ? 1 : 0;
+  return 0.5 * std::erfc(-excess / (sigma * std::numbers::sqrt2));
+}
+
+DirectionClass classOf(double factor) {
+  if (factor > kFull) return DirectionClass::kFull;
+  return factor < kNone ? DirectionClass::kNone : DirectionClass::kPartial;
+}
+
+double factorOf(const MatchDirection& direction) {
+  const double factor = direction.probability * std::min(1.0, direction.share / kFullShare);
+  if (factor > kFull) return 1;
+  return factor < kNone ? 0 : factor;
+}
+
+// The three directions of one kind, weakest first, with shares, probabilities and sigmas.
+void observeKind(std::span<const PlaneRow> rows, const Mat6& information,
+                 const DegeneracyNoise& noise, int own,
+                 std::array<MatchDirection, 6>& directions) {
+  const Reduced reduced = reduce(information, own);
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(reduced.schur);
+  std::array<double, 3> counts{}, eigenvalues{};
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 axis = solver.eigenvectors().col(i);
+    const Vec3 other = reduced.follow * axis;
+    const Support support = own == kTranslation ? measureSupport(rows, axis, other, noise)
+                                                : measureSupport(rows, other, axis, noise);
+    MatchDirection& direction = directions[static_cast<std::size_t>(own + i)];
+    direction.axis_body = axis;
+    direction.probability = informativeProbability(support);
+    eigenvalues[static_cast<std::size_t>(i)] = std::max(solver.eigenvalues()[i], 0.0);
+    counts[static_cast<std::size_t>(i)] = support.count;
+  }
+  const double largest = std::max({counts[0], counts[1], counts[2], 1.0});
+  for (std::size_t i = 0; i < 3; ++i) {
+    MatchDirection& direction = directions[static_cast<std::size_t>(own) + i];
+    direction.share = counts[i] / largest;
+    const double factor = factorOf(direction);
+    direction.cls = classOf(factor);
+    direction.sigma = 1 / std::sqrt(std::max(factor * eigenvalues[i], kUnknownInformation));
+  }
+}
+
+void attenuateKind(int own, const std::array<MatchDirection, 6>& directions, Mat6& information) {
+  for (int i = 0; i < 3; ++i) {
+    const MatchDirection& direction = directions[static_cast<std::size_t>(own + i)];
+    const double factor = factorOf(direction);
+    if (factor >= 1) continue;
+    const Mat3 schur = reduce(information, own).schur;
+    const Vec3 x = schur * direction.axis_body;
+    const double along = direction.axis_body.dot(x);
+    if (along <= 0) continue;
+    information.block<3, 3>(own, own) -= ((1 - factor) / along) * x * x.transpose();
+  }
+}
+
+}  // namespace
+
+ObservedDirections observeDirections(std::span<const PlaneRow> rows, const Mat6& information,
+                                     const DegeneracyNoise& noise) {
+  ObservedDirections observed;
+  observeKind(rows, information, noise, kTranslation, observed.directions);
+  observeKind(rows, information, noise, kRotation, observed.directions);
+  observed.information = information;
+  attenuateKind(kTranslation, observed.directions, observed.information);
+  attenuateKind(kRotation, observed.directions, observed.information);
+  // Rounding may leave an eigenvalue a little below zero where the information was taken away.
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(observed.information);
+  const Vec6 eigenvalues = solver.eigenvalues().cwiseMax(0.0);
+  if (solver.eigenvalues()[0] < 0) {
+    observed.information = solver.eigenvectors() * eigenvalues.asDiagonal() *
+                           solver.eigenvectors().transpose();
+  }
+  observed.information = (0.5 * (observed.information + observed.information.transpose())).eval();
+  return observed;
+}
+
+}  // namespace paloc

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <nanoflann.hpp>
+#include <vector>
+
+#include "paloc/core/types.h"
+
+namespace paloc {
+
+/// nanoflann's view of a vector of points.
+struct PointAdaptor {
+  const std::vector<Point3f>& points;
+
+  std::size_t kdtree_get_point_count() const { return points.size(); }
+  float kdtree_get_pt(std::size_t index, std::size_t dim) const {
+    const Point3f& p = points[index];
+    return dim == 0 ? p.x : dim == 1 ? p.y : p.z;
+  }
+  template <typename Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+
+using KdTree =
+    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, PointAdaptor, float,
+                                                                     std::uint32_t>,
+                                        PointAdaptor, 3, std::uint32_t>;
+
+/// Result set of nanoflann for one neighbour within a distance.
+struct NearestResult {
+  float distance_sq;
+  std::uint32_t index = std::numeric_limits<std::uint32_t>::max();
+
+  std::size_t size() const { return 1; }
+  bool full() const { return true; }
+  float worstDist() const { return distance_sq; }
+  bool addPoint(float candidate_sq, std::uint32_t candidate) {
+    if (candidate_sq < distance_sq) {
+      distance_sq = candidate_sq;
+      index = candidate;
+    }
+    return true;
+  }
+};
+
+}  // namespace paloc

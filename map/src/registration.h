@@ -1,0 +1,95 @@
+#pragma once
+
+#include <tbb/task_arena.h>
+
+#include <vector>
+
+#include "paloc/core/map_matcher.h"
+#include "paloc/core/pose.h"
+#include "paloc/map/degeneracy.h"
+#include "paloc/map/map_information.h"
+#include "paloc/map/matcher_settings.h"
+#include "paloc/map/prior_map.h"
+
+namespace paloc {
+
+/// How one alignment goes: gates on the distance from a point to its map point.
+struct AlignSchedule {
+  double first_gate_m = 0.5;
+  int first_iterations = 2;
+  double gate_m = 0.2;
+  int max_iterations = 20;
+  bool shared_errors = true;  ///< end with generalized least squares under shared errors
+};
+
+/// What an alignment came to.
+struct Alignment {
+  Pose T_local_body;
+  bool converged = false;
+  int iterations = 0;
+  int near = 0;     ///< points with any map point within the last gate
+  int matched = 0;  ///< points with a plane
+  int inliers = 0;  ///< matched points within three robust standard deviations
+  double residual_rms_m = 0, residual_median_m = 0;
+  Mat6 information_body = Mat6::Zero();  ///< tangent of PlaneRow, before weak directions are scaled
+};
+
+/// Point-to-plane Gauss-Newton on SE(3) of one thinned scan against the map, in the map's local frame. The
+/// correspondences, their order and every sum are the same on any number of threads.
+class Registration {
+ public:
+  Registration(const PriorMap& map, const MatcherSettings& settings, tbb::task_arena& arena)
+      : map_(map), settings_(settings), arena_(arena) {}
+
+  /// The points (body frame, m) to be registered next and where their rays start.
+  void setPoints(std::vector<Point3f> points_body, const Vec3& sensor_position_body);
+  const std::vector<Point3f>& points() const { return points_; }
+  const Vec3& sensorPosition() const { return sensor_body_; }
+
+  /// Registers the points from a start. A direction that the map does not fix is held at the start.
+  Alignment align(const Pose& start, const AlignSchedule& schedule);
+
+  /// Rows of the last alignment, at its result.
+  const std::vector<PlaneRow>& rows() const { return rows_; }
+
+  DegeneracyNoise noise() const {
+    return {.point_sigma_m = settings_.range_noise_m,
+            .normal_sigma_rad = settings_.normal_noise_rad};
+  }
+
+ private:
+  struct Correspondence {
+    Eigen::Vector3d searched_at = Eigen::Vector3d::Constant(1e30);  // far from any first pose
+    Vec3 normal = Vec3::Zero();  // of the plane, local frame
+    double height = 0;           // the plane is normal . x = height
+    double distance = 0;         // to the map point, when searched
+    double fit_variance = 0;     // of the plane's height at its centroid
+    double normal_sigma = 0;
+    Vec3 map_point = Vec3::Zero();
+    bool near = false, planar = false;
+  };
+
+  void associate(const Pose& pose, double gate);
+  void search(Correspondence& match, const Vec3& position, const Vec3& sensor) const;
+  void linearize(const Pose& pose);
+  PlaneRow rowOf(std::size_t point, const Mat3& R_body_local, const Pose& pose) const;
+  double robustScale();
+  void weigh(double scale);
+  NormalEquations equations(bool shared, int patches) const;
+  void summarize(double scale, Alignment& alignment);
+
+  const PriorMap& map_;
+  const MatcherSettings& settings_;
+  tbb::task_arena& arena_;
+  std::vector<Point3f> points_;
+  Vec3 sensor_body_ = Vec3::Zero();
+  std::vector<Correspondence> matches_;
+  std::vector<std::uint32_t> matched_;  // points with a plane, ascending
+  std::vector<PlaneRow> rows_;          // one per matched point
+  std::vector<double> sigmas_;          // standard deviation of each row's residual, unweighted
+  std::vector<double> scratch_;
+  float reach_ = 0;                     // of the searches in hand (m)
+  int near_ = 0;
+};
+
+}  // namespace paloc

@@ -1,0 +1,164 @@
+#include "paloc/map/scan_matcher.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "paloc/core/mrpt_pose.h"
+#include "paloc/map/voxel_filter.h"
+#include "registration.h"
+#include "rough_start.h"
+
+namespace paloc {
+namespace {
+
+constexpr double kOutsideShare = 0.1;  // of the points near any map point, below: outside the map
+
+double secondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+class ScanMatcher::Work {
+ public:
+  Work(std::shared_ptr<const PriorMap> map, const MatcherSettings& settings)
+      : map_(std::move(map)),
+        settings_(settings),
+        arena_(std::max(settings.threads, 1)),
+        registration_(*map_, settings_, arena_) {}
+
+  MapMatch match(const Scan& scan, const Pose& guess, double sigma_position,
+                 double sigma_rotation) {
+    MapMatch answer = begin(scan, guess);
+    if (answer.refusal == MatchRefusal::kNoScan || tooFew(answer)) return answer;
+    const AlignSchedule schedule{.first_gate_m = settings_.max_distance_m,
+                                 .gate_m = std::min(settings_.fine_distance_m, settings_.max_distance_m),
+                                 .max_iterations = settings_.max_iterations};
+    const auto start = std::chrono::steady_clock::now();
+    const Alignment alignment = registration_.align(toLocal(guess), schedule);
+    timing_.align_s = secondsSince(start);
+    fill(alignment, answer);
+    if (answer.accepted() && stepTooLarge(guess, answer, sigma_position, sigma_rotation)) {
+      answer.refusal = MatchRefusal::kLargeStep;
+    }
+    return answer;
+  }
+
+  MapMatch locate(const Scan& scan, const Pose& rough) {
+    MapMatch answer = begin(scan, rough);
+    if (answer.refusal == MatchRefusal::kNoScan || tooFew(answer)) return answer;
+    const auto start = std::chrono::steady_clock::now();
+    const RoughStart found = searchAround(registration_, *map_, settings_, toLocal(rough));
+    timing_.align_s = secondsSince(start);
+    fill(found.alignment, answer);
+    const Vec6 step = boxminus(fromMrpt(answer.T_map_body), rough);
+    if (answer.accepted() && (step.head<3>().norm() > settings_.locate_max_step_m ||
+                              step.tail<3>().norm() > settings_.locate_max_step_rad)) {
+      answer.refusal = MatchRefusal::kLargeStep;
+    }
+    if (answer.accepted() && !found.verified) answer.refusal = MatchRefusal::kNotVerified;
+    return answer;
+  }
+
+  const Timing& timing() const { return timing_; }
+
+ private:
+  Pose toLocal(const Pose& pose) const { return {pose.position - map_->origin(), pose.rotation}; }
+
+  // Thins the scan and sets it up. The answer still says "not converged".
+  MapMatch begin(const Scan& scan, const Pose& guess) {
+    timing_ = {};
+    MapMatch answer;
+    answer.T_map_body = toMrpt(guess);
+    if (scan.points_body.empty()) {
+      answer.refusal = MatchRefusal::kNoScan;
+      return answer;
+    }
+    const auto start = std::chrono::steady_clock::now();
+    const std::vector<std::uint32_t> kept =
+        filter_.selectAtMost(scan.points_body, settings_.scan_voxel_m,
+                             static_cast<std::size_t>(std::max(settings_.max_points, 1)));
+    std::vector<Point3f> points(kept.size());
+    for (std::size_t i = 0; i < kept.size(); ++i) points[i] = scan.points_body[kept[i]];
+    timing_.filter_s = secondsSince(start);
+    answer.points = static_cast<int>(points.size());
+    registration_.setPoints(std::move(points), scan.sensor_position_body);
+    return answer;
+  }
+
+  bool tooFew(MapMatch& answer) const {
+    if (answer.points >= settings_.min_inliers) return false;
+    answer.refusal = MatchRefusal::kTooFewPoints;
+    return true;
+  }
+
+  void fill(const Alignment& alignment, MapMatch& answer) {
+    const auto start = std::chrono::steady_clock::now();
+    const Pose& local = alignment.T_local_body;
+    answer.T_map_body = toMrpt(Pose{local.position + map_->origin(), local.rotation});
+    answer.matched = alignment.matched;
+    answer.inliers = alignment.inliers;
+    answer.overlap = static_cast<double>(alignment.matched) / answer.points;
+    answer.residual_rms_m = alignment.residual_rms_m;
+    answer.residual_median_m = alignment.residual_median_m;
+    answer.iterations = alignment.iterations;
+    answer.refusal = gate(alignment, answer);
+    if (!registration_.rows().empty()) {
+      const ObservedDirections observed = observeDirections(
+          registration_.rows(), alignment.information_body, registration_.noise());
+      answer.directions = observed.directions;
+      answer.information = informationInMap(observed.information, local.rotation);
+    }
+    timing_.directions_s = secondsSince(start);
+  }
+
+  MatchRefusal gate(const Alignment& alignment, const MapMatch& answer) const {
+    if (alignment.near < kOutsideShare * answer.points) return MatchRefusal::kOutsideMap;
+    if (answer.inliers < settings_.min_inliers) return MatchRefusal::kTooFewInliers;
+    if (answer.overlap < settings_.min_overlap) return MatchRefusal::kLowOverlap;
+    if (answer.residual_rms_m > settings_.max_residual_rms_m) return MatchRefusal::kHighResidual;
+    return alignment.converged ? MatchRefusal::kNone : MatchRefusal::kNotConverged;
+  }
+
+  bool stepTooLarge(const Pose& guess, const MapMatch& answer, double sigma_position,
+                    double sigma_rotation) const {
+    const Vec6 step = boxminus(fromMrpt(answer.T_map_body), guess);
+    const auto distanceSq = [](double length, double sigma, double floor) {
+      return length * length / std::max(sigma * sigma + floor * floor, 1e-12);
+    };
+    const double limit_sq = settings_.max_step_sigmas * settings_.max_step_sigmas;
+    return distanceSq(step.head<3>().norm(), sigma_position, settings_.step_floor_m) > limit_sq ||
+           distanceSq(step.tail<3>().norm(), sigma_rotation, settings_.step_floor_rad) > limit_sq;
+  }
+
+  std::shared_ptr<const PriorMap> map_;
+  MatcherSettings settings_;
+  tbb::task_arena arena_;
+  Registration registration_;
+  VoxelFilter filter_;
+  Timing timing_;
+};
+
+std::shared_ptr<ScanMatcher> ScanMatcher::onto(std::shared_ptr<const PriorMap> map,
+                                               const MatcherSettings& settings) {
+  return std::shared_ptr<ScanMatcher>(
+      new ScanMatcher(std::make_unique<Work>(std::move(map), settings)));
+}
+
+ScanMatcher::ScanMatcher(std::unique_ptr<Work> work) : work_(std::move(work)) {}
+ScanMatcher::~ScanMatcher() = default;
+
+MapMatch ScanMatcher::match(const Scan& scan, const mrpt::poses::CPose3D& T_map_body_guess,
+                            double guess_sigma_position, double guess_sigma_rotation) {
+  return work_->match(scan, fromMrpt(T_map_body_guess), guess_sigma_position,
+                      guess_sigma_rotation);
+}
+
+MapMatch ScanMatcher::locate(const Scan& scan, const mrpt::poses::CPose3D& T_map_body_rough) {
+  return work_->locate(scan, fromMrpt(T_map_body_rough));
+}
+
+const ScanMatcher::Timing& ScanMatcher::lastTiming() const { return work_->timing(); }
+
+}  // namespace paloc

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace paloc {
+
+inline constexpr int kVoxelBits = 21;  ///< an axis: three of them fit in 64 bits
+inline constexpr double kVoxelLimit = 1 << (kVoxelBits - 1);
+
+/// The number of the voxel along one axis, shifted to be positive; saturates.
+inline std::uint64_t voxelIndex(float coordinate, double inverse_voxel) {
+  const double scaled = std::floor(static_cast<double>(coordinate) * inverse_voxel);
+  const double bounded = std::min(std::max(scaled, -kVoxelLimit), kVoxelLimit - 1);
+  return static_cast<std::uint64_t>(bounded + kVoxelLimit);
+}
+
+/// Spreads the low 21 bits of a number, two zeros between each.
+inline std::uint64_t spreadBits(std::uint64_t v) {
+  v = (v | v << 32) & 0x1f00000000ffffULL;
+  v = (v | v << 16) & 0x1f0000ff0000ffULL;
+  v = (v | v << 8) & 0x100f00f00f00f00fULL;
+  v = (v | v << 4) & 0x10c30c30c30c30c3ULL;
+  v = (v | v << 2) & 0x1249249249249249ULL;
+  return v;
+}
+
+/// Place of a voxel on the Morton curve: neighbours in space are near in number, and the voxels of
+/// a cube whose edge is 2^k voxels share all but their last 3 k bits.
+inline std::uint64_t mortonKey(std::uint64_t i, std::uint64_t j, std::uint64_t k) {
+  return spreadBits(i) | spreadBits(j) << 1 | spreadBits(k) << 2;
+}
+
+/// Mixes the bits of a key for a hash table whose size is a power of two (Fibonacci hashing).
+inline std::uint64_t hashKey(std::uint64_t key) {
+  key ^= key >> 32;
+  key *= 0x9e3779b97f4a7c15ULL;
+  return key ^ key >> 29;
+}
+
+}  // namespace paloc
