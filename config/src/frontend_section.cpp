@@ -27,8 +27,16 @@ std::vector<Setting> frontendSettings() {
            "Standard deviation of that rotation per radian turned since the last scan.");
   s.number("max_odometry_gap_s", &S::max_odometry_gap_s, "s", {1e-3, 60},
            "Odometry poses further apart than this are not interpolated.");
+  s.number("max_odometry_extrapolation_s", &S::max_odometry_extrapolation_s, "s", {0, 1},
+           "Beyond its last pose the odometry is carried on at even speed for so long.");
+  s.number("max_odometry_speed_mps", &S::max_odometry_speed_mps, "m/s", {0.1, 1000},
+           "A faster step of the odometry is taken for a jump, not for a motion.");
+  s.number("max_odometry_rate_radps", &S::max_odometry_rate_radps, "rad/s", {0.1, 1000},
+           "A faster turn of the odometry is taken for a jump, not for a motion.");
   s.number("max_imu_gap_s", &S::max_imu_gap_s, "s", {1e-3, 10},
            "IMU samples further apart than this are not integrated over.");
+  s.number("max_wait_s", &S::max_wait_s, "s", {0, 60},
+           "Recorded time for which a scan waits for the IMU and the odometry to reach its end.");
   return std::move(s).rows();
 }
 
