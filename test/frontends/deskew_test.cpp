@@ -129,7 +129,7 @@ TEST(Deskew, FollowsEveryPoseOfAFastOdometry) {
 }
 
 TEST(Deskew, FastTurningStaysWithinTheBound) {
-  const Path path = test::constantTwist(Vec3(3, 0, 0), Vec3(0, 0, 9.5));
+  const Path path = test::constantTwist(Vec3(1.5, 0, 0), Vec3(0, 0, 9.5));
   ScanMotionInput input = known(path, true, true);
   DroppedPoints dropped;
   const LidarFrame frame = scanAlong(path);

@@ -25,7 +25,8 @@ inline Path constantTwist(const Vec3& v_world, const Vec3& omega_body) {
 /// Swaying as in a quick walk: up to about 1.7 m/s and 2 rad/s, with accelerations of some m/s2.
 inline Path sway() {
   return [](double t) {
-    const Vec3 position(1.2 * std::sin(1.1 * t), 0.3 * std::sin(2.3 * t + 1), 0.04 * std::sin(12 * t));
+    const Vec3 position(1.2 * std::sin(1.1 * t), 0.3 * std::sin(2.3 * t + 1),
+                        0.04 * std::sin(12 * t));
     const Vec3 turn(0.10 * std::sin(7 * t), 0.08 * std::cos(5 * t), 1.1 * std::sin(1.5 * t));
     return Pose{position, so3::exp(turn)};
   };
