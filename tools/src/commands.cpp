@@ -5,6 +5,7 @@ namespace paloc {
 std::vector<std::unique_ptr<Command>> allCommands() {
   std::vector<std::unique_ptr<Command>> commands;
   commands.push_back(makeEvalCommand());
+  commands.push_back(makeBenchCommand());
   commands.push_back(makeConfigCommand());
   return commands;
 }

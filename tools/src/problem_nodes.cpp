@@ -1,0 +1,88 @@
+#include "problem_nodes.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace paloc {
+namespace {
+
+// As smoother problems are defined; gravity is one for all nodes, but for rounding.
+constexpr double kGravity_mps2 = 9.81;
+constexpr double kGravityWalk_sqrthz = 1e-6;
+constexpr double kPriorSigmaVelocity_mps = 0.1, kPriorSigmaBiasAcc_mps2 = 0.1,
+                 kPriorSigmaBiasGyro_radps = 0.01, kPriorSigmaGravity = 1e-4;
+
+Preintegration preintegrate(const SmootherProblem& problem, std::size_t k, const State& last) {
+  const SmootherProblem::Node &node = problem.nodes[k], &before = problem.nodes[k - 1];
+  Preintegration p(problem.noise, last.bias_acc, last.bias_gyro);
+  // What came last before the interval holds until the first sample within it.
+  const ImuSample* held = before.imu.empty() ? nullptr : &before.imu.back();
+  TimeNs held_since_ns = before.t_ns;
+  const auto holdUntil = [&](TimeNs t_ns) {
+    const TimeNs end_ns = std::min(t_ns, node.t_ns);
+    if (!held || end_ns <= held_since_ns) return;
+    p.integrate(held->acc_body, held->omega_body, secondsBetween(held_since_ns, end_ns));
+    held_since_ns = end_ns;
+  };
+  for (const ImuSample& sample : node.imu) {
+    holdUntil(sample.t_ns);
+    // Without any sample before it, the first one stands for the time before it, too.
+    held = &sample;
+  }
+  holdUntil(node.t_ns);
+  return p;
+}
+
+void addMapFactors(const SmootherProblem& problem, std::size_t k, ChainNode& node) {
+  for (const SmootherProblem::MapMeasurement& map : problem.nodes[k].map) {
+    if (map.node == k) node.node_factors.push_back(MapFactor(map.T_map_body, map.information));
+  }
+}
+
+}  // namespace
+
+ChainNode firstProblemNode(const SmootherProblem& problem) {
+  const SmootherProblem::Node& first = problem.nodes.front();
+  ChainNode node;
+  node.t_ns = first.t_ns;
+  node.state.T_map_body = first.map.empty() ? first.T_map_body_true : first.map[0].T_map_body;
+  node.state.v_map = first.v_map_true;
+  StateVector sigma;
+  sigma << Vec6::Constant(std::numeric_limits<double>::infinity()),
+      Vec3::Constant(kPriorSigmaVelocity_mps), Vec3::Constant(kPriorSigmaBiasAcc_mps2),
+      Vec3::Constant(kPriorSigmaBiasGyro_radps), Vec3::Constant(kPriorSigmaGravity);
+  node.node_factors.push_back(PriorFactor::fromSigmas(node.state, sigma));
+  addMapFactors(problem, 0, node);
+  return node;
+}
+
+ChainNode nextProblemNode(const SmootherProblem& problem, std::size_t k, const State& last) {
+  const SmootherProblem::Node& source = problem.nodes[k];
+  const double dt_s = secondsBetween(problem.nodes[k - 1].t_ns, source.t_ns);
+  ChainNode node;
+  node.t_ns = source.t_ns;
+  node.node_factors.reserve(2);
+  node.edge_factors.reserve(4);
+  const Preintegration imu = preintegrate(problem, k, last);
+  if (imu.dt_s > 0) {
+    const ImuFactor factor(imu, kGravity_mps2);
+    node.state = factor.predict(last);
+    node.edge_factors.push_back(factor);
+  } else {
+    // Nothing but the odometry, if there is any, tells of the motion.
+    node.state = last;
+    if (!source.odometry.empty()) {
+      node.state.T_map_body = last.T_map_body * source.odometry[0].T_i_j;
+    }
+    node.edge_factors.push_back(VelocityFactor(dt_s, 0.5));
+  }
+  node.edge_factors.push_back(BiasWalkFactor(problem.noise, dt_s));
+  node.edge_factors.push_back(ConstantGravityFactor(kGravityWalk_sqrthz, dt_s));
+  for (const SmootherProblem::OdometryMeasurement& odometry : source.odometry) {
+    node.edge_factors.push_back(LidarOdometryFactor(odometry.T_i_j, odometry.covariance));
+  }
+  addMapFactors(problem, k, node);
+  return node;
+}
+
+}  // namespace paloc
