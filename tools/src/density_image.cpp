@@ -45,7 +45,7 @@ OpacityImage densityImage(const std::vector<Point3f>& points, int right_axis, in
   image.opacity.reserve(counts.size());
   for (const std::uint32_t n : counts) {
     const double share = std::min(1.0, std::log1p(static_cast<double>(n)) / opaque);
-    image.opacity.push_back(static_cast<std::uint8_t>(std::lround(255 * share * share)));
+    image.opacity.push_back(static_cast<std::uint8_t>(std::lround(255 * std::pow(share, 1.5))));
   }
   return image;
 }

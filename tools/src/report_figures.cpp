@@ -69,7 +69,7 @@ double medianOf(std::vector<double> values) {
 
 std::string summaryOfLine(const PlotLine& line, const std::string& unit) {
   const Highest highest = highestOf(line);
-  if (!std::isfinite(highest.value)) return "No value.";
+  if (!std::isfinite(highest.value)) return "No map factor was used.";
   return "Median " + shortNumber(medianOf(line.values)) + ' ' + unit + ", highest " +
          shortNumber(highest.value) + ' ' + unit + " at " + fixedNumber(highest.t_s, 1) + " s.";
 }
@@ -94,20 +94,23 @@ void chooseScale(TimePlot& plot) {
   plot.logarithmic = highestOf(first).value > 30 * medianOf(first.values);
 }
 
+// Time between two poses belongs to the later one's stretch, so that neighbours meet.
 std::vector<PlotBand> bandsOf(const ReportSummary& summary, TimeNs zero_ns,
                               const std::string& prefix, bool with_good) {
   std::vector<PlotBand> bands;
+  double begin_s = 0;
   for (const FlagStretch& stretch : summary.stretches) {
-    if (stretch.flag == PoseFlag::kGood && !with_good) continue;
-    bands.push_back({prefix + toString(stretch.flag), secondsBetween(zero_ns, stretch.begin_ns),
-                     secondsBetween(zero_ns, stretch.end_ns)});
+    if (stretch.first == 0) begin_s = secondsBetween(zero_ns, stretch.begin_ns);
+    const double end_s = secondsBetween(zero_ns, stretch.end_ns);
+    const std::string flag = toString(stretch.flag);
+    if (stretch.flag != PoseFlag::kGood || with_good) {
+      bands.push_back({prefix + flag, begin_s, end_s,
+                       flag + ", " + fixedNumber(secondsBetween(zero_ns, stretch.begin_ns), 1) +
+                           " s to " + fixedNumber(end_s, 1) + " s, " +
+                           counted(stretch.count, "pose", "poses")});
+    }
+    begin_s = end_s;
   }
-  return bands;
-}
-
-// Neighbouring stretches meet: time between two poses belongs to the later one's.
-std::vector<PlotBand> joined(std::vector<PlotBand> bands) {
-  for (std::size_t i = 1; i < bands.size(); ++i) bands[i].begin_s = bands[i - 1].end_s;
   return bands;
 }
 
@@ -137,7 +140,7 @@ class TimePlots {
 
   std::string flags() const {
     TimePlot plot = blank("Flag");
-    plot.bands = joined(bandsOf(summary_, zero_ns_, "band-", true));
+    plot.bands = bandsOf(summary_, zero_ns_, "band-", true);
     return timeBandFigure(plot);
   }
 
@@ -153,6 +156,7 @@ class TimePlots {
   std::string inliers() const {
     TimePlot plot = blank("Overlap and inliers");
     plot.unit = "% of the points";
+    plot.reaches = 100;
     plot.lines.push_back(
         line("s1", "overlap: found a plane of the map", [](const FrameDiagnostics& d) {
           return d.match.points > 0 ? 100 * d.match.overlap : kNone;
@@ -281,7 +285,7 @@ std::string mapSection(const ReportData& data, const ReportSummary& summary) {
   const auto view = [&](const MapView& v) {
     return mapViewFigure(v, trajectory, data.map_points, data.map_origin);
   };
-  html += view({"From above", 0, 1, 0.3, 0.72});
+  html += view({"From above", 0, 1, 0.3, 0.8});
   if (!trajectory.empty()) {
     // From the side along which the way is longer.
     PlotRange x{INFINITY, -INFINITY}, y{INFINITY, -INFINITY};

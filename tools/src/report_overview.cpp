@@ -99,6 +99,7 @@ std::string notesSection(const ReportData& data) {
 }
 
 std::string reproduceSection(const ReportData& data) {
+  if (data.command_line.empty() && data.versions.empty() && data.settings_yaml.empty()) return "";
   std::string html =
       "<section aria-labelledby=\"reproduce\">\n<h2 id=\"reproduce\">How to reproduce</h2>\n";
   if (!data.command_line.empty()) {

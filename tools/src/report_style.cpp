@@ -9,11 +9,13 @@ std::string styleSheet() {
 :root { color-scheme: light dark; --page: #f5f7fa; --card: #fff; --ink: #17212e; --soft: #566373;
   --rule: #dbe2ea; --grid: #e3e9f0; --paper: #fbfcfe; --link: #1d4ed8; --code: #f0f3f8;
   --good: #0f766e; --degenerate: #c2700a; --coasting: #7c3aed; --lost: #d21f3c;
-  --s1: #2563eb; --s2: #d97706; --s3: #0d9488; --total: #17212e; --halo: #fff; }
+  --s1: #2563eb; --s2: #d97706; --s3: #0d9488; --total: #17212e; --halo: #fff;
+  --map: none; }
 @media (prefers-color-scheme: dark) { :root { --page: #0e141b; --card: #161e28; --ink: #e7edf4;
   --soft: #9fb0c2; --rule: #2a3644; --grid: #243040; --paper: #121a23; --link: #8ab4ff;
   --code: #0f1720; --good: #2dd4bf; --degenerate: #fbbf24; --coasting: #b79cff; --lost: #ff7085;
-  --s1: #6ea8ff; --s2: #fbb04b; --s3: #3fd6c2; --total: #e7edf4; --halo: #0b1118; } }
+  --s1: #6ea8ff; --s2: #fbb04b; --s3: #3fd6c2; --total: #e7edf4; --halo: #0b1118;
+  --map: brightness(2.3) saturate(.6); } }
 * { box-sizing: border-box; }
 html { -webkit-text-size-adjust: 100%; scroll-behavior: smooth; }
 @media (prefers-reduced-motion: reduce) { html { scroll-behavior: auto; } }
@@ -39,8 +41,8 @@ section { margin-top: 20px; padding: 22px 24px; background: var(--card); border:
 .verdict h2 { display: flex; gap: 12px; align-items: center; font-size: 1.4rem; }
 .verdict .badge { flex: none; width: 32px; height: 32px; border-radius: 50%; background: var(--tone);
   color: var(--card); font-size: 1.1rem; line-height: 32px; text-align: center; }
-.verdict p { font-size: 1.05rem; }
-.verdict .caveat { color: var(--soft); font-size: .92rem; }
+.verdict p { font-size: 1.05rem; max-width: 88ch; }
+.verdict .caveat { color: var(--soft); font-size: .92rem; max-width: 100ch; }
 nav { margin-top: 16px; font-size: .95rem; }
 nav ul { display: flex; flex-wrap: wrap; gap: 4px 20px; margin: 0; padding: 0; list-style: none; }
 nav a { display: inline-block; padding: 4px 0; text-decoration: none; }
@@ -61,6 +63,7 @@ figcaption p { flex-basis: 100%; margin: 0; color: var(--soft); font-size: .9rem
 .legend.flags { margin-top: 12px; }
 .swatch { display: inline-block; width: 22px; height: 4px; margin-right: 7px; border-radius: 2px;
   vertical-align: middle; background: currentColor; }
+.swatch.total { height: 6px; opacity: .4; }
 .swatch.dot { width: 9px; height: 9px; border-radius: 50%; }
 .s1 { color: var(--s1); } .s2 { color: var(--s2); } .s3 { color: var(--s3); }
 .total { color: var(--total); } .refused { color: var(--lost); }
@@ -79,10 +82,10 @@ svg .marktext { fill: var(--ink); font-size: 14px; font-weight: 650; paint-order
 .grid { stroke: var(--grid); stroke-width: 1; } .axis { stroke: var(--soft); stroke-width: 1; }
 .mapview .grid { stroke-opacity: .7; }
 .line { fill: none; stroke: currentColor; stroke-width: 1.6; stroke-linejoin: round; }
-.line.total { stroke-width: 2.2; }
-.dots { fill: none; stroke: currentColor; stroke-width: 5; stroke-linecap: round; }
+.line.total { stroke-width: 5; stroke-opacity: .3; }
+.dots { fill: none; stroke: currentColor; stroke-width: 4.5; stroke-linecap: round; }
 .paper { fill: var(--paper); stroke: var(--rule); }
-.map { opacity: .62; image-rendering: auto; }
+.map { opacity: .8; filter: var(--map); }
 .halo { fill: none; stroke: var(--halo); stroke-width: 7; stroke-linejoin: round;
   stroke-linecap: round; stroke-opacity: .85; }
 .way { fill: none; stroke: var(--flag); stroke-width: 3; stroke-linejoin: round;
@@ -90,7 +93,8 @@ svg .marktext { fill: var(--ink); font-size: 14px; font-weight: 650; paint-order
 .way.degenerate { stroke-width: 4.5; } .way.coasting { stroke-width: 4.5; stroke-dasharray: 7 6; }
 .way.lost { stroke-width: 4.5; stroke-dasharray: 1 7; }
 .mark { fill: var(--ink); stroke: var(--halo); stroke-width: 2; }
-.scalebar { stroke: var(--ink); stroke-width: 2; }
+.scalebar { fill: none; stroke: var(--ink); stroke-width: 2; }
+.scalehalo { fill: none; stroke: var(--halo); stroke-width: 6; stroke-linecap: round; }
 .band-good { fill: var(--good); } .band-degenerate { fill: var(--degenerate); }
 .band-coasting { fill: var(--coasting); } .band-lost { fill: var(--lost); }
 .shade-degenerate, .shade-coasting, .shade-lost { fill: var(--flag); fill-opacity: .17; }
@@ -122,7 +126,7 @@ footer { margin-top: 24px; color: var(--soft); font-size: .88rem; }
   .mapview text { font-size: 22px; } .mapview .unit { font-size: 22px; } .mapview .marktext { font-size: 27px; }
   .mapview .way { stroke-width: 6; } .mapview .way.degenerate { stroke-width: 8; }
   .mapview .way.coasting { stroke-width: 8; stroke-dasharray: 12 11; }
-  .mapview .minor { display: none; } svg.narrow text { font-size: 12px; } }
+  svg.narrow text { font-size: 12px; } }
 @media print { body { background: #fff; } section, .figures div { break-inside: avoid; } nav { display: none; } }
 )css";
 }

@@ -177,8 +177,7 @@ std::string mapFactorsSection(const ReportData& data, const ReportSummary& s) {
 
 std::string unusedSection(const ReportData& data) {
   std::string html = open("unused", "What was not used, and why");
-  if (data.unused.empty())
-    return html + "<p>Everything in the recording was used.</p>\n</section>\n";
+  if (data.unused.empty()) return html + "<p>No observation was left out.</p>\n</section>\n";
   HtmlTable table("Observations not used",
                   {{"Class", kText}, {"Label", kText}, {"Reason", kText}, {"Count", kNumber}});
   std::uint64_t total = 0;

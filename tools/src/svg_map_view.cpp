@@ -11,7 +11,7 @@
 namespace paloc {
 namespace {
 
-constexpr double kWidth = 1000, kLeft = 66, kRight = 12, kTop = 12, kBottom = 50;
+constexpr double kWidth = 1000, kLeft = 66, kRight = 12, kTop = 12, kBottom = 58;
 constexpr double kPlotWidth = kWidth - kLeft - kRight;
 constexpr std::array<const char*, 3> kAxisNames = {"x (m)", "y (m)", "z (m)"};
 
@@ -90,9 +90,9 @@ std::string gridAndAxes(const MapView& view, const Window& w) {
   const AxisTicks right = roundTicks(w.right, 10);
   for (const double m : right.values) {
     grid += svgLine(w.x(m), kTop, w.x(m), floor_y, "grid");
-    labels += svgText(w.x(m), floor_y + 18, "middle", fixedNumber(m, right.decimals));
+    labels += svgText(w.x(m), floor_y + 22, "middle", fixedNumber(m, right.decimals));
   }
-  const AxisTicks up = roundTicks(w.up, std::clamp(static_cast<int>(w.plotHeight() / 70), 2, 10));
+  const AxisTicks up = roundTicks(w.up, std::clamp(static_cast<int>(w.plotHeight() / 50), 3, 10));
   for (const double m : up.values) {
     grid += svgLine(kLeft, w.y(m), kWidth - kRight, w.y(m), "grid");
     labels += svgText(kLeft - 6, w.y(m) + 4, "end", fixedNumber(m, up.decimals));
@@ -169,9 +169,12 @@ std::string scaleBar(const Window& w) {
   const double length_m = roundDown(w.right.length() / 5);
   const double end = kWidth - kRight - 16, begin = end - length_m * w.scale();
   const double y = kTop + w.plotHeight() - 14;
-  return svgLine(begin, y, end, y, "scalebar") + svgLine(begin, y - 5, begin, y + 5, "scalebar") +
-         svgLine(end, y - 5, end, y + 5, "scalebar") +
-         svgText((begin + end) / 2, y - 8, "middle", shortNumber(length_m) + " m", "marktext");
+  const std::string path = " d=\"M" + svgNumber(begin) + ' ' + svgNumber(y - 5) + "v10m0-5H" +
+                           svgNumber(end) + "m0-5v10\"/>";
+  const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(length_m) + 1e-9)));
+  return "<path class=\"scalehalo\"" + path + "<path class=\"scalebar\"" + path +
+         svgText((begin + end) / 2, y - 9, "middle", fixedNumber(length_m, decimals) + " m",
+                 "marktext");
 }
 
 }  // namespace

@@ -58,6 +58,7 @@ PlotRange valueRange(const TimePlot& plot) {
     return range.max > range.min ? range : PlotRange{range.min, 10 * range.min};
   }
   if (plot.from_zero) range.min = std::min(0.0, range.min);
+  if (plot.reaches > 0) range.max = std::max(range.max, plot.reaches / 1.06);
   if (!(range.length() > 0)) return {range.min - 0.5, range.min + 0.5};
   if (!plot.from_zero) range.min -= 0.06 * range.length();
   range.max += 0.06 * range.length();
@@ -81,13 +82,17 @@ std::string timeAxis(const Scales& s) {
   return svg + svgText(l.left + l.plotWidth() / 2, l.height - 5, "middle", "time (s)", "unit");
 }
 
+int decimalsOf(double power_of_ten) {
+  return std::max(0, static_cast<int>(-std::floor(std::log10(power_of_ten) + 1e-9)));
+}
+
 std::string valueAxis(const Scales& s, const std::string& unit) {
   const Layout& l = s.layout;
   const AxisTicks ticks = s.logarithmic ? decadeTicks(s.value) : roundTicks(s.value, l.value_ticks);
   std::string svg;
   for (const double v : ticks.values) {
     svg += svgLine(l.left, s.y(v), l.width - l.right, s.y(v), "grid");
-    const std::string text = s.logarithmic ? shortNumber(v) : fixedNumber(v, ticks.decimals);
+    const std::string text = fixedNumber(v, s.logarithmic ? decimalsOf(v) : ticks.decimals);
     svg += svgText(l.left - 6, s.y(v) + 4, "end", text);
   }
   const std::string middle = svgNumber(l.top + l.plotHeight() / 2);
@@ -103,7 +108,8 @@ std::string bandsOf(const TimePlot& plot, const Scales& s) {
     const double width = std::max(1.5, s.x(band.end_s) - begin);
     svg += "<rect class=\"" + band.css + "\" x=\"" + svgNumber(begin) + "\" y=\"" +
            svgNumber(s.layout.top) + "\" width=\"" + svgNumber(width) + "\" height=\"" +
-           svgNumber(s.layout.plotHeight()) + "\"/>";
+           svgNumber(s.layout.plotHeight()) + "\">" +
+           (band.label.empty() ? "" : "<title>" + escapeHtml(band.label) + "</title>") + "</rect>";
   }
   return svg;
 }

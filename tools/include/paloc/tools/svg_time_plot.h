@@ -21,6 +21,7 @@ struct PlotBand {
   std::string css;  ///< "band-coasting"
   double begin_s = 0;
   double end_s = 0;
+  std::string label;  ///< shown when pointed at; may be empty
 };
 
 /// Lines over a common time axis.
@@ -32,6 +33,7 @@ struct TimePlot {
   std::vector<PlotLine> lines;
   std::vector<PlotBand> bands;
   bool logarithmic = false;
+  double reaches = 0;     ///< a linear axis goes at least this far up
   bool from_zero = true;  ///< the axis of a linear plot begins at zero
 };
 
