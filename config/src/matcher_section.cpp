@@ -1,31 +1,80 @@
 #include "section.h"
 
 namespace paloc {
+namespace {
 
-std::vector<Setting> matcherSettings() {
-  using S = MatcherSettings;
-  Section s(
-      "matcher", [](auto& config) -> auto& { return config.matcher; });
+using S = MatcherSettings;
+
+template <typename Rows>
+void addPointsAndDistances(Rows& s) {
   s.number("scan_voxel_m", &S::scan_voxel_m, "m", {0.01, 10},
-           "Edge of the voxels that a scan is thinned with.");
-  s.count("max_points", &S::max_points, {100, 1000000}, "Points of a scan kept after thinning.");
+           "Edge of the finest voxels that a scan is thinned with.");
+  s.count("max_points", &S::max_points, {100, 1000000},
+          "Points of a scan kept: its voxels grow until no more are left.");
   s.number("max_distance_m", &S::max_distance_m, "m", {0.01, 10},
-           "Largest distance between a scan's point and its map point when tracking.");
+           "Largest distance of a point to its map point in the first two iterations.");
+  s.number("fine_distance_m", &S::fine_distance_m, "m", {0.01, 10},
+           "The same from the third iteration on.");
+  s.number("research_distance_m", &S::research_distance_m, "m", {0, 1},
+           "A point that moved less than this keeps its map point.");
+}
+
+template <typename Rows>
+void addNoise(Rows& s) {
   s.number("range_noise_m", &S::range_noise_m, "m", {1e-4, 1},
            "Standard deviation of a return's range, from the data sheet.");
   s.number("map_noise_m", &S::map_noise_m, "m", {1e-4, 1},
            "Standard deviation of a map point about its surface.");
+  s.number("normal_noise_rad", &S::normal_noise_rad, "rad", {0, 1},
+           "Standard deviation of a map normal beyond what its fit tells: uneven walls.");
   s.number("plane_bias_m", &S::plane_bias_m, "m", {0, 1},
            "Error that all returns from one plane patch share.");
+  s.number("plane_patch_m", &S::plane_patch_m, "m", {0.1, 1000},
+           "Radius of such a patch: the extent of one wall, as surveyed.");
   s.number("range_bias_m", &S::range_bias_m, "m", {0, 1},
            "Error that all returns of a scan share.");
+}
+
+template <typename Rows>
+void addGates(Rows& s) {
   s.number("min_overlap", &S::min_overlap, "", {0, 1},
            "Share of a scan's points that must find a plane of the map.");
   s.count("min_inliers", &S::min_inliers, {6, 1000000},
           "Fewer points within the gate and the match is refused.");
   s.number("max_residual_rms_m", &S::max_residual_rms_m, "m", {1e-3, 10},
            "Larger residuals of the inliers and the match is refused.");
+  s.number("max_step_sigmas", &S::max_step_sigmas, "", {0.1, 1000},
+           "Largest step from the prediction that is believed, in its standard deviations.");
+  s.number("step_floor_m", &S::step_floor_m, "m", {0, 100},
+           "Added in squares to the prediction's standard deviation of position.");
+  s.number("step_floor_rad", &S::step_floor_rad, "rad", {0, 4}, "The same for rotation.");
   s.count("max_iterations", &S::max_iterations, {1, 1000}, "Steps of the registration.");
+}
+
+template <typename Rows>
+void addLocate(Rows& s) {
+  s.number(
+      "locate_distance_m", &S::locate_distance_m, "m", {0.01, 100},
+      "Largest distance of a point to its map point in the first iterations of a rough start.");
+  s.number("locate_max_step_m", &S::locate_max_step_m, "m", {0.01, 100},
+           "Furthest that a rough start is corrected by.");
+  s.number("locate_max_step_rad", &S::locate_max_step_rad, "rad", {0.01, 4},
+           "The same for rotation.");
+  s.number("locate_min_inlier_share", &S::locate_min_inlier_share, "", {0, 1},
+           "Share of points within the noise of their plane, below which a start is not believed.");
+  s.number("locate_max_blocked_share", &S::locate_max_blocked_share, "", {0, 1},
+           "Share of rays through a surface of the map, above which a start is not believed.");
+}
+
+}  // namespace
+
+std::vector<Setting> matcherSettings() {
+  Section s(
+      "matcher", [](auto& config) -> auto& { return config.matcher; });
+  addPointsAndDistances(s);
+  addNoise(s);
+  addGates(s);
+  addLocate(s);
   s.count("threads", &S::threads, {1, 64},
           "Threads that seek correspondences; no influence on the result.");
   return std::move(s).rows();
