@@ -7,6 +7,7 @@ std::vector<std::unique_ptr<Command>> allCommands() {
   commands.push_back(makeEvalCommand());
   commands.push_back(makeBenchCommand());
   commands.push_back(makeConfigCommand());
+  commands.push_back(makeReplayCommand());
   return commands;
 }
 

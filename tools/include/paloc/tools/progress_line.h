@@ -1,0 +1,24 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace paloc {
+
+/// One line on standard error that tells how far long work is: rewritten in place on a terminal, a
+/// plain line every ten seconds elsewhere.
+class ProgressLine {
+ public:
+  ProgressLine();
+  /// Shows `text`, unless it was updated a moment ago.
+  void show(const std::string& text);
+  /// Ends the line, so that other output starts on a fresh one.
+  void finish();
+
+ private:
+  bool terminal_;
+  bool open_ = false;
+  std::chrono::steady_clock::time_point last_;
+};
+
+}  // namespace paloc

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "paloc/config/config.h"
+#include "paloc/core/pose.h"
+#include "paloc/core/trajectory.h"
+#include "paloc/core/unused_counts.h"
+#include "paloc/map/point_cloud.h"
+#include "paloc/tools/stage_stopwatch.h"
+
+namespace paloc {
+
+/// What a replay is asked to do.
+struct ReplayOptions {
+  std::filesystem::path log_file;
+  std::filesystem::path map_file;
+  std::string frontend = "recorded";
+  std::optional<Pose> T_map_body_initial;  ///< rough pose at the first scan
+  double from_s = 0;                       ///< skip so much of the recording at its start
+  std::optional<double> to_s;              ///< stop so long after the recording's start
+  double output_voxel_m = 0.05;            ///< of the map made of the scans
+};
+
+/// How far a replay is, for the progress line.
+struct ReplayProgress {
+  double share = 0;             ///< of the recording's bytes, 0..1
+  double speed_x_realtime = 0;  ///< so far
+  std::uint64_t frames = 0;
+  const FrameDiagnostics* last_frame = nullptr;
+  bool started = false;  ///< the first pose has been found
+};
+
+/// What came out of a replay.
+struct ReplayOutcome {
+  Result result;
+  UnusedCounts unused;
+  std::vector<std::string> notes;  ///< sentences for the user, in the order they came up
+  std::string damage;              ///< how the recording ended early; empty if it did not
+  bool interrupted = false;
+  PointCloud map_of_scans;
+  std::vector<Point3f> prior_map_sample;  ///< map frame (m), for the report's picture
+  std::size_t prior_map_points = 0;
+  std::size_t prior_map_planar = 0;
+  std::vector<StageTimes> stages;
+  double recording_s = 0;  ///< time span of the recording that was replayed
+  double wall_s = 0;       ///< from opening the files to the final trajectory
+};
+
+/// Called now and then with the state of things.
+using ReplayObserver = std::function<void(const ReplayProgress&)>;
+
+/// Reads a recording and a prior map and makes the trajectory. Stops early, keeping what there is,
+/// once `interrupt` becomes true. Throws IoError or ConfigError for what is wrong before the work
+/// begins; trouble in the data is counted in the outcome.
+ReplayOutcome replay(const ReplayOptions& options, const Config& config,
+                     const std::atomic<bool>& interrupt, const ReplayObserver& observer);
+
+}  // namespace paloc

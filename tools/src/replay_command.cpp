@@ -1,0 +1,152 @@
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+#include <numbers>
+#include <sstream>
+
+#include "paloc/core/errors.h"
+#include "paloc/frontends/tum_file.h"
+#include "paloc/tools/commands.h"
+#include "paloc/tools/config_options.h"
+#include "paloc/tools/progress_line.h"
+#include "paloc/tools/replay.h"
+#include "paloc/tools/replay_summary.h"
+#include "paloc/tools/replay_writers.h"
+#include "paloc/tools/result_folder.h"
+
+namespace paloc {
+namespace {
+
+constexpr const char* kExample = R"(Example:
+  paloc replay recording.rawlog --map map.ply --init-pose 1.2,0.4,1.6,90,0,0 -o result
+  paloc replay recording.rawlog --map map.ply --init-tum truth.tum --set smoother.lag_s=10
+
+The pose written for a scan is that of the body at the scan's end, in the map's frame.
+Exit codes: 0 all poses good, 1 finished but part of the result is flagged, 2 wrong usage or
+configuration, 3 an input file is wrong, 4 no localization, 5 internal error.)";
+
+std::atomic<bool> interrupted{false};
+
+extern "C" void onInterrupt(int) {
+  interrupted = true;
+  std::signal(SIGINT, SIG_DFL);  // a second Ctrl-C ends the program at once
+}
+
+Pose parsePose(const std::string& text) {
+  double v[6];
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf%c", &v[0], &v[1], &v[2], &v[3], &v[4],
+                  &v[5], &rest) != 6) {
+    throw UsageError("--init-pose " + text +
+                     ": must be six numbers x,y,z,yaw,pitch,roll (m, degrees)");
+  }
+  for (const double value : v) {
+    if (!std::isfinite(value)) throw UsageError("--init-pose " + text + ": must be finite numbers");
+  }
+  const auto radians = [](double degrees) { return degrees * std::numbers::pi / 180; };
+  Pose pose;
+  pose.position = Vec3(v[0], v[1], v[2]);
+  pose.rotation = (Eigen::AngleAxisd(radians(v[3]), Vec3::UnitZ()) *
+                   Eigen::AngleAxisd(radians(v[4]), Vec3::UnitY()) *
+                   Eigen::AngleAxisd(radians(v[5]), Vec3::UnitX()))
+                      .toRotationMatrix();
+  return pose;
+}
+
+std::string progressText(const ReplayProgress& p) {
+  char buffer[200];
+  const MapMatch* match = p.last_frame ? &p.last_frame->match : nullptr;
+  std::snprintf(buffer, sizeof buffer, "%5.1f %%  %6.1f x real time  %6llu scans  %s",
+                100 * p.share, p.speed_x_realtime, static_cast<unsigned long long>(p.frames),
+                p.started ? "" : "no start yet  ");
+  std::string text = buffer;
+  if (match && match->accepted()) {
+    std::snprintf(buffer, sizeof buffer, "inliers %d of %d  residual %.1f mm", match->inliers,
+                  match->points, 1000 * match->residual_rms_m);
+    text += buffer;
+  } else if (match) {
+    text += "no map factor: " + toString(match->refusal);
+  }
+  return text;
+}
+
+class ReplayCommand : public Command {
+ public:
+  void registerOn(CLI::App& app) override {
+    replay_ = app.add_subcommand("replay", "Make a trajectory of a recording and a prior map");
+    replay_->add_option("LOG", options_.log_file, "recording (MRPT rawlog)")->required();
+    replay_->add_option("--map", options_.map_file, "prior map (PLY, PCD)")->required();
+    replay_->add_option("--frontend", options_.frontend, "odometry front-end")
+        ->capture_default_str();
+    auto* pose = replay_->add_option("--init-pose", init_pose_,
+                                     "rough pose of the body at the first scan: "
+                                     "x,y,z,yaw,pitch,roll (m, degrees)");
+    replay_->add_option("--init-tum", init_tum_, "take that from the first pose of this TUM file")
+        ->excludes(pose);
+    replay_->add_option("--from", options_.from_s, "skip this much of the recording (s)")
+        ->check(CLI::NonNegativeNumber);
+    replay_->add_option("--to", to_s_, "stop this long after the recording's start (s)")
+        ->check(CLI::PositiveNumber);
+    replay_->add_option("-j", threads_, "threads; the result is the same for any number")
+        ->check(CLI::Range(1, 256));
+    replay_->add_option("-o,--output", output_, "result folder")->capture_default_str();
+    replay_->add_flag("--overwrite", overwrite_, "replace result files that are there already");
+    replay_->add_flag("--json", json_, "print summary.json on standard output, and nothing else");
+    config_.registerOn(*replay_);
+    replay_->footer(kExample);
+  }
+
+  bool called() const override { return replay_->parsed(); }
+
+  ExitCode run() override {
+    Config config = config_.load();
+    if (threads_ > 0) config.map.threads = config.matcher.threads = threads_;
+    checkConfig(config);
+    if (!init_pose_.empty()) options_.T_map_body_initial = parsePose(init_pose_);
+    if (!init_tum_.empty()) options_.T_map_body_initial = readTum(init_tum_).front().pose;
+    if (to_s_ > 0) options_.to_s = to_s_;
+    const ResultFolder folder(output_, overwrite_);
+
+    std::signal(SIGINT, onInterrupt);
+    ProgressLine progress;
+    const ReplayOutcome outcome =
+        replay(options_, config, interrupted,
+               [&](const ReplayProgress& p) { progress.show(progressText(p)); });
+    progress.finish();
+    std::signal(SIGINT, SIG_DFL);
+    writeResult(folder, options_, config, outcome, commandLine());
+    (json_ ? std::cerr : std::cout) << summaryText(outcome) << "results in       "
+                                    << folder.path().string() << " (report.html)\n";
+    if (json_) std::cout << summaryJson(outcome).dump(2) << '\n';
+    return judge(outcome).code;
+  }
+
+ private:
+  // As the user would type it again.
+  std::string commandLine() const {
+    std::ostringstream line;
+    line << "paloc replay " << options_.log_file << " --map " << options_.map_file << " --frontend "
+         << options_.frontend << " --config config_effective.yaml";
+    if (!init_pose_.empty()) line << " --init-pose=" << init_pose_;
+    if (!init_tum_.empty()) line << " --init-tum " << init_tum_;
+    if (options_.from_s > 0) line << " --from " << options_.from_s;
+    if (options_.to_s) line << " --to " << *options_.to_s;
+    return line.str();
+  }
+
+  CLI::App* replay_ = nullptr;
+  ReplayOptions options_;
+  ConfigOptions config_;
+  std::string init_pose_, init_tum_;
+  std::string output_ = "paloc_result";
+  double to_s_ = 0;
+  int threads_ = 0;
+  bool overwrite_ = false, json_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> makeReplayCommand() { return std::make_unique<ReplayCommand>(); }
+
+}  // namespace paloc
