@@ -8,6 +8,7 @@ std::vector<std::unique_ptr<Command>> allCommands() {
   commands.push_back(makeBenchCommand());
   commands.push_back(makeConfigCommand());
   commands.push_back(makeReplayCommand());
+  commands.push_back(makeSynthCommand());
   return commands;
 }
 

@@ -1,0 +1,165 @@
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "paloc/core/errors.h"
+#include "paloc/core/mrpt_pose.h"
+#include "paloc/tools/commands.h"
+#include "paloc/tools/synth_recording.h"
+#include "paloc/tools/synth_scene.h"
+#include "paloc/tools/synth_sensor.h"
+
+namespace paloc {
+namespace {
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+/// One line that is written anew on a terminal, nothing elsewhere.
+class ProgressLine {
+ public:
+  void operator()(double share, const std::string& file) {
+    const int percent = static_cast<int>(100 * share);
+    if (!terminal_ || percent == last_) return;
+    last_ = percent;
+    std::fprintf(stderr, "\rpaloc synth: %3d %%  %-20s", percent, file.c_str());
+    if (percent == 100) std::fputc('\n', stderr);
+  }
+
+ private:
+  bool terminal_ = isatty(STDERR_FILENO) != 0;
+  int last_ = -1;
+};
+
+class SynthCommand : public Command {
+ public:
+  void registerOn(CLI::App& app) override;
+  bool called() const override { return command_->parsed(); }
+  ExitCode run() override;
+
+ private:
+  void addModelOptions();
+  void printSummary(const synth::SynthSummary& summary, double time_s) const;
+
+  CLI::App* command_ = nullptr;
+  synth::SynthSettings settings_;
+  std::string trajectory_, folder_;
+  std::vector<double> extrinsic_;
+  double range_noise_m_ = -1;
+  bool json_ = false;
+};
+
+void SynthCommand::registerOn(CLI::App& app) {
+  command_ = app.add_subcommand("synth", "Simulate a recording, its prior map and its truth");
+  command_->add_option("--scene", settings_.scene, "where: " + joined(synth::sceneNames()))
+      ->capture_default_str();
+  command_->add_option("--sensor", settings_.sensor, "LiDAR: " + joined(synth::sensorNames()))
+      ->capture_default_str();
+  command_->add_option(
+      "--trajectory", trajectory_,
+      "path of the body in the scene's frame (TUM), instead of a walk; smoothed by 0.15 s");
+  command_->add_option("--duration", settings_.duration_s, "length of the recording (s)")
+      ->check(CLI::Range(0.1, 3600.0))
+      ->capture_default_str();
+  command_->add_option("--seed", settings_.seed, "of all random numbers: same seed, same bytes")
+      ->capture_default_str();
+  addModelOptions();
+  command_->add_option("-o,--output", folder_, "folder to write to")->required();
+  command_->add_flag("--gzip", settings_.gzip, "compress the recording (40 ms a scan)");
+  command_->add_flag("--overwrite", settings_.overwrite, "replace files of an earlier run");
+  command_->add_option("-j,--threads", settings_.threads, "threads; 0: all processors")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
+  command_->add_flag("--json", json_, "print a JSON object");
+  command_->footer(
+      "Writes recording.rawlog, map.ply, truth.tum (pose of the body in the map at the end of "
+      "each\n"
+      "scan), truth_imu.csv (with velocity and biases, at IMU rate) and synth.json (all parameters "
+      "and\n"
+      "frames).\n\nExample: paloc synth --scene building --sensor os1-128 --duration 60 -o demo");
+}
+
+void SynthCommand::addModelOptions() {
+  command_->add_option("--odometry-drift", settings_.odometry.drift, "share of the way, over 10 m")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command_
+      ->add_option("--range-noise", range_noise_m_,
+                   "of the LiDAR (m, one sigma); else the sensor's own")
+      ->check(CLI::Range(0.0, 1.0));
+  command_
+      ->add_option("--map-bias", settings_.survey.surface_bias_m,
+                   "shift of whole surfaces in the map (m, one sigma)")
+      ->check(CLI::Range(0.0, 0.1))
+      ->capture_default_str();
+  command_->add_option("--map-spacing", settings_.survey.spacing_m, "edge of the map's voxels (m)")
+      ->check(CLI::Range(0.005, 1.0))
+      ->capture_default_str();
+  command_
+      ->add_option("--T-body-lidar", extrinsic_,
+                   "x,y,z,yaw,pitch,roll (m, degrees) of the LiDAR in the body: p_body = T p_lidar")
+      ->delimiter(',')
+      ->expected(6);
+}
+
+ExitCode SynthCommand::run() {
+  settings_.trajectory = trajectory_;
+  settings_.folder = folder_;
+  if (range_noise_m_ >= 0) settings_.range_noise_m = range_noise_m_;
+  if (!extrinsic_.empty()) {
+    constexpr double kDegree = std::numbers::pi / 180;
+    settings_.T_body_lidar = fromMrpt(
+        mrpt::poses::CPose3D(extrinsic_[0], extrinsic_[1], extrinsic_[2], extrinsic_[3] * kDegree,
+                             extrinsic_[4] * kDegree, extrinsic_[5] * kDegree));
+  }
+  ProgressLine progress;
+  const auto start = std::chrono::steady_clock::now();
+  const synth::SynthSummary summary = writeRecording(settings_, std::ref(progress));
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+  printSummary(summary, time.count());
+  return ExitCode::kGood;
+}
+
+void SynthCommand::printSummary(const synth::SynthSummary& summary, double time_s) const {
+  for (const std::string& note : summary.notes)
+    std::fprintf(stderr, "paloc synth: %s\n", note.c_str());
+  if (json_) {
+    nlohmann::ordered_json json;
+    json["folder"] = settings_.folder.string();
+    json["scans"] = summary.scans;
+    json["points"] = summary.points;
+    json["scans_without_returns"] = summary.scans_without_returns;
+    json["imu_samples"] = summary.imu_samples;
+    json["odometry_poses"] = summary.odometry_poses;
+    json["map_points"] = summary.map_points;
+    json["duration_s"] = summary.duration_s;
+    json["length_m"] = summary.length_m;
+    json["odometry_end_error_m"] = summary.odometry_end_error_m;
+    json["notes"] = summary.notes;
+    json["time_s"] = time_s;
+    std::cout << json.dump(2) << '\n';
+    return;
+  }
+  std::printf(
+      "%zu scans with %.1f million points, %zu IMU samples, %zu odometry poses over %.1f s and "
+      "%.1f m\n",
+      summary.scans, static_cast<double>(summary.points) * 1e-6, summary.imu_samples,
+      summary.odometry_poses, summary.duration_s, summary.length_m);
+  std::printf("the odometry ends %.2f m off; the map has %zu points\n",
+              summary.odometry_end_error_m, summary.map_points);
+  std::printf("written to %s in %.1f s\n", settings_.folder.string().c_str(), time_s);
+}
+
+}  // namespace
+
+std::unique_ptr<Command> makeSynthCommand() { return std::make_unique<SynthCommand>(); }
+
+}  // namespace paloc

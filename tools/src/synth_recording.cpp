@@ -1,0 +1,191 @@
+#include "paloc/tools/synth_recording.h"
+
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <numbers>
+
+#include "paloc/core/errors.h"
+#include "paloc/core/mrpt_pose.h"
+#include "paloc/frontends/mrpt_time.h"
+#include "paloc/frontends/rawlog_stream.h"
+#include "paloc/frontends/tum_file.h"
+#include "paloc/map/cloud_io.h"
+#include "paloc/tools/synth_scene.h"
+#include "paloc/tools/synth_sensor.h"
+#include "paloc/tools/synth_timeline.h"
+#include "paloc/tools/synth_writers.h"
+
+namespace paloc::synth {
+namespace {
+
+constexpr const char* kFiles[] = {"recording.rawlog", "truth.tum", "truth_imu.csv", "map.ply",
+                                  "synth.json"};
+constexpr double kSurveyShare = 0.2;  // of the time, roughly
+
+void claimFolder(const SynthSettings& settings) {
+  std::error_code error;
+  std::filesystem::create_directories(settings.folder, error);
+  if (error) throw IoError(settings.folder.string() + ": cannot be made: " + error.message());
+  for (const char* name : kFiles) {
+    const auto file = settings.folder / name;
+    if (!settings.overwrite && std::filesystem::exists(file)) {
+      throw UsageError(file.string() + " exists already: give another folder, or --overwrite");
+    }
+  }
+}
+
+mrpt::obs::CObservationIMU::Ptr toObservation(const ImuSample& sample) {
+  auto observation = mrpt::obs::CObservationIMU::Create();
+  observation->timestamp = toMrptTime(sample.t_ns);
+  observation->sensorLabel = "imu";
+  observation->set(mrpt::obs::IMU_X_ACC, sample.acc_body.x());
+  observation->set(mrpt::obs::IMU_Y_ACC, sample.acc_body.y());
+  observation->set(mrpt::obs::IMU_Z_ACC, sample.acc_body.z());
+  observation->set(mrpt::obs::IMU_WX, sample.omega_body.x());
+  observation->set(mrpt::obs::IMU_WY, sample.omega_body.y());
+  observation->set(mrpt::obs::IMU_WZ, sample.omega_body.z());
+  return observation;
+}
+
+mrpt::obs::CObservationRobotPose::Ptr toObservation(const StampedPose& odometry) {
+  auto observation = mrpt::obs::CObservationRobotPose::Create();
+  observation->timestamp = toMrptTime(odometry.t_ns);
+  observation->sensorLabel = "odometry";
+  observation->pose.mean = toMrpt(odometry.pose);
+  observation->pose.cov.setZero();  // unknown
+  return observation;
+}
+
+/// Writes the observations in the order of their stamps: scans as they come, and before each the
+/// IMU samples and odometry poses that are older.
+class OrderedRecording {
+ public:
+  OrderedRecording(const std::filesystem::path& file, const Timeline& timeline, bool gzip)
+      : timeline_(timeline),
+        writer_(file, gzip ? RawlogWriter::Compression::kGzip : RawlogWriter::Compression::kNone) {}
+
+  void writeScan(const obs::CObservationLidarScan& scan) {
+    writeUntil(fromMrptTime(scan.timestamp));
+    writer_.write(scan);
+  }
+  void close() {
+    writeUntil(std::numeric_limits<TimeNs>::max());
+    writer_.close();
+  }
+
+ private:
+  void writeUntil(TimeNs end_ns) {
+    for (;;) {
+      const TimeNs imu = imu_ < timeline_.imu.size() ? timeline_.imu[imu_].sample.t_ns : end_ns;
+      const TimeNs odometry =
+          odometry_ < timeline_.odometry.size() ? timeline_.odometry[odometry_].t_ns : end_ns;
+      if (imu >= end_ns && odometry >= end_ns) return;
+      if (imu <= odometry) {
+        writer_.write(*toObservation(timeline_.imu[imu_++].sample));
+      } else {
+        writer_.write(*toObservation(timeline_.odometry[odometry_++]));
+      }
+    }
+  }
+
+  const Timeline& timeline_;
+  RawlogWriter writer_;
+  std::size_t imu_ = 0, odometry_ = 0;  // the next to write
+};
+
+/// Simulates the scans on all threads, and writes them in order as they are ready; a few at a time
+/// are in memory.
+void writeScans(const Timeline& timeline, const LidarSimulator& lidar, OrderedRecording& recording,
+                SynthSummary& summary, const SynthProgress& progress) {
+  struct Job {
+    std::size_t index = 0;
+    obs::CObservationLidarScan::Ptr scan;
+  };
+  std::size_t next = 0;
+  const auto in_flight = static_cast<std::size_t>(4 * tbb::this_task_arena::max_concurrency());
+  tbb::parallel_pipeline(
+      in_flight,
+      tbb::make_filter<void,
+                       Job>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& flow) -> Job {
+        if (next == timeline.scans) flow.stop();
+        return {next++, nullptr};
+      }) & tbb::make_filter<Job, Job>(tbb::filter_mode::parallel, [&](Job job) {
+        job.scan = lidar.scan(job.index, timeline.scanStart(job.index));
+        return job;
+      }) & tbb::make_filter<Job, void>(tbb::filter_mode::serial_in_order, [&](const Job& job) {
+        recording.writeScan(*job.scan);
+        summary.points += job.scan->size();
+        if (job.scan->size() == 0) ++summary.scans_without_returns;
+        const double share =
+            static_cast<double>(job.index + 1) / static_cast<double>(timeline.scans);
+        progress((1 - kSurveyShare) * share, "recording.rawlog");
+      }));
+}
+
+double endError(const Timeline& timeline) {
+  const Pose T_map_odom = timeline.truth.front().pose * timeline.odometry.front().pose.inverse();
+  return (T_map_odom * timeline.odometry.back().pose.position - timeline.truth.back().pose.position)
+      .norm();
+}
+
+void addCounts(const Timeline& timeline, const SensorModel& sensor, SynthSummary& summary) {
+  summary.scans = timeline.scans;
+  summary.imu_samples = timeline.imu.size();
+  summary.odometry_poses = timeline.odometry.size();
+  summary.duration_s = secondsBetween(timeline.first_scan_ns,
+                                      timeline.scanStart(timeline.scans - 1) + sensor.duration());
+  summary.length_m = timeline.length_m;
+  summary.odometry_end_error_m = endError(timeline);
+  summary.notes = timeline.notes;
+}
+
+}  // namespace
+
+Pose defaultExtrinsic() {
+  constexpr double kDegree = std::numbers::pi / 180;
+  return fromMrpt(
+      mrpt::poses::CPose3D(-0.037, 0.008, -0.023, 1.0 * kDegree, 0.6 * kDegree, -0.4 * kDegree));
+}
+
+SynthSummary writeRecording(const SynthSettings& settings, const SynthProgress& progress) {
+  const int threads = settings.threads > 0 ? settings.threads : tbb::info::default_concurrency();
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
+  const Scene scene = makeScene(settings.scene);
+  SensorModel sensor = makeSensor(settings.sensor);
+  if (settings.range_noise_m) sensor.range_noise_m = *settings.range_noise_m;
+  const Timeline timeline = makeTimeline(settings, scene.route, sensor);
+  claimFolder(settings);
+  const Raycaster raycaster(scene.mesh);
+
+  SynthSummary summary;
+  addCounts(timeline, sensor, summary);
+  writeTum(settings.folder / "truth.tum", timeline.truth);
+  writeImuTruth(settings.folder / "truth_imu.csv", timeline.imu);
+  const LidarSimulator lidar(sensor, settings.T_body_lidar, scene.mesh, raycaster, timeline.motion,
+                             settings.seed);
+  OrderedRecording recording(settings.folder / "recording.rawlog", timeline, settings.gzip);
+  writeScans(timeline, lidar, recording, summary, progress);
+  recording.close();
+  if (summary.scans_without_returns > 0) {
+    summary.notes.push_back(std::to_string(summary.scans_without_returns) + " of " +
+                            std::to_string(summary.scans) +
+                            " scans hit nothing: the path leaves the scene");
+  }
+  progress(1 - kSurveyShare, "map.ply");
+  const PointCloud map =
+      survey(settings.survey, scene.mesh, raycaster, scene.survey_stations, settings.seed);
+  summary.map_points = map.size();
+  savePly(settings.folder / "map.ply", map, "paloc synth, scene " + settings.scene);
+  writeDescription(settings.folder / "synth.json", settings, scene.description, sensor, summary);
+  progress(1, "synth.json");
+  for (const char* name : kFiles) summary.files.push_back(settings.folder / name);
+  return summary;
+}
+
+}  // namespace paloc::synth
