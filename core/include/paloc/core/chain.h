@@ -34,7 +34,7 @@ struct ChainNode {
 
 /// What the factors of one node add to the normal equations H delta = b, at their linearization
 /// points: for the node itself (j) and for the one before it (i).
-struct ChainBlock {
+struct PALOC_EXPORT ChainBlock {
   StateMatrix hessian_jj = StateMatrix::Zero();  ///< of the node's own factors and of its edge
   StateMatrix hessian_ji = StateMatrix::Zero();  ///< of the edge: rows j, columns i
   StateMatrix hessian_ii = StateMatrix::Zero();  ///< of the edge
