@@ -76,7 +76,7 @@ Scan emptyScanOf(const LidarFrame& frame) {
   scan.start_ns = frame.stamp_ns;
   scan.end_ns = frame.endNs();
   scan.sensor_position_body = frame.T_body_lidar.position;
-  scan.points_body.resize(frame.points_lidar.size());
+  scan.points_body.resize(frame.points_lidar.size() + 1);  // moveInRange writes four floats a point
   return scan;
 }
 
@@ -93,7 +93,7 @@ void moveInRange(const LidarFrame& frame, Gate gate, Scan& scan, DroppedPoints& 
     const Point3f p = points[i];
     const float range_sq = p.x * p.x + p.y * p.y + p.z * p.z;
     const Vec4f moved = move(i, p);
-    std::memcpy(static_cast<void*>(out + kept), &moved, sizeof(Point3f));
+    std::memcpy(static_cast<void*>(out + kept), &moved, sizeof moved);
     const bool is_near = range_sq < gate.min_sq;
     near += is_near;
     kept += !is_near & (range_sq <= gate.max_sq);

@@ -10,8 +10,8 @@
 
 namespace paloc::obs {
 
-/// A LiDAR scan with a time for each point, whole and quick to read: what Debian's MRPT has no class
-/// for. `timestamp` is that of the first point. rawlog-edit and RawLogViewer read it with
+/// A LiDAR scan with a time for each point, whole and quick to read: what Debian's MRPT has no
+/// class for. `timestamp` is that of the first point. rawlog-edit and RawLogViewer read it with
 /// `-p`/`-l libpaloc_frontends.so`.
 class PALOC_EXPORT CObservationLidarScan : public mrpt::obs::CObservation {
   DEFINE_SERIALIZABLE(CObservationLidarScan, paloc::obs)
