@@ -52,7 +52,7 @@ std::vector<Slot> sampleMotion(const LidarFrame& frame, const ScanMotion& motion
   std::vector<Slot> slots(count);
   const auto at = [&](std::size_t i) {
     const TimeNs dt = frame.duration_ns * static_cast<TimeNs>(i) / static_cast<TimeNs>(count);
-    return columnsOf(motion.T_end_body(frame.stamp_ns + dt) * frame.T_body_lidar);
+    return columnsOf(motion.bodyAt(frame.stamp_ns + dt) * frame.T_body_lidar);
   };
   Columns now = at(0);
   for (std::size_t i = 0; i < count; ++i) {
@@ -115,12 +115,12 @@ Scan deskew(const LidarFrame& frame, const ScanMotion& motion, RangeLimits limit
   const std::size_t count = slotCount(motion, duration_s, limits.max_m);
   const std::vector<Slot> slots = sampleMotion(frame, motion, count);
   const std::uint32_t* dt_ns = frame.dt_ns.data();
-  const float slots_per_ns =
+  const auto slots_per_ns =
       static_cast<float>(static_cast<double>(count) / static_cast<double>(frame.duration_ns));
   const auto last = static_cast<std::int32_t>(count - 1);
   moveInRange(frame, Gate(limits), scan, dropped, [&](std::size_t i, const Point3f& p) {
     const float place = static_cast<float>(dt_ns[i]) * slots_per_ns;
-    const std::int32_t slot = std::min(static_cast<std::int32_t>(place), last);
+    const auto slot = std::min(static_cast<std::int32_t>(place), last);
     const float ratio = std::min(place - static_cast<float>(slot), 1.0F);
     const Slot& s = slots[static_cast<std::size_t>(slot)];
     return s.at.apply(p) + ratio * s.change.apply(p);

@@ -138,7 +138,7 @@ void RecordedOdometry::giveOutWhatIsReady() {
 }
 
 void RecordedOdometry::giveOutImu(TimeNs until_ns) {
-  while (auto sample = imu_samples_.takeUntil(until_ns)) events_.push_back(*sample);
+  while (auto sample = imu_samples_.takeUntil(until_ns)) events_.emplace_back(*sample);
 }
 
 void RecordedOdometry::giveOutFrame(LidarFrame& frame) {
@@ -149,7 +149,7 @@ void RecordedOdometry::giveOutFrame(LidarFrame& frame) {
   placeInOdometry(result);
   result.scan = makeScan(frame);
   ++counts_.frames;
-  events_.push_back(std::move(result));
+  events_.emplace_back(std::move(result));
   imu_samples_.forgetBefore(frame.stamp_ns);
   if (settings_.odometry_file.empty()) track_.forgetBefore(std::min(frame.stamp_ns, end));
 }

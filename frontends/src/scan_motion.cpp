@@ -125,7 +125,7 @@ Pose ScanMotion::atStartFrame(double t_s) const {
   return {p, a.R * so3::exp(turn)};
 }
 
-Pose ScanMotion::T_end_body(TimeNs t_ns) const {
+Pose ScanMotion::bodyAt(TimeNs t_ns) const {
   return T_end_start_ * atStartFrame(secondsBetween(start_ns_, t_ns));
 }
 

@@ -113,7 +113,7 @@ TEST(Deskew, MotionMeetsTheOdometryAtBothEnds) {
   const Path path = test::sway();
   const ScanMotionInput input = known(path, true, true);
   const ScanMotion motion(input);
-  const Pose end = motion.T_end_body(input.end_ns), start = motion.T_end_body(input.start_ns);
+  const Pose end = motion.bodyAt(input.end_ns), start = motion.bodyAt(input.start_ns);
   EXPECT_LT(boxminus(end, Pose{}).norm(), 1e-12);
   const Pose expected = path(seconds(input.end_ns)).inverse() * path(seconds(input.start_ns));
   EXPECT_LT((start.position - expected.position).norm(), 2e-4);
@@ -138,8 +138,8 @@ TEST(Deskew, FastTurningStaysWithinTheBound) {
   double worst = 0;
   for (std::size_t i = 0; i < frame.points_lidar.size(); ++i) {
     const Point3f& p = frame.points_lidar[i];
-    const Vec3 exact = motion.T_end_body(frame.stamp_ns + frame.dt_ns[i]) *
-                       (frame.T_body_lidar * Vec3(p.x, p.y, p.z));
+    const Vec3 exact =
+        motion.bodyAt(frame.stamp_ns + frame.dt_ns[i]) * (frame.T_body_lidar * Vec3(p.x, p.y, p.z));
     const Point3f& q = scan.points_body[i];
     worst = std::max(worst, (exact - Vec3(q.x, q.y, q.z)).norm());
   }

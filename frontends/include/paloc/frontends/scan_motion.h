@@ -38,8 +38,8 @@ class PALOC_EXPORT ScanMotion {
   TimeNs startNs() const { return start_ns_; }
   TimeNs endNs() const { return end_ns_; }
 
-  /// The body's pose at an instant of the scan, in the body's frame at its end.
-  Pose T_end_body(TimeNs t_ns) const;
+  /// T_end_body: the body's pose at an instant of the scan, in the body's frame at its end.
+  Pose bodyAt(TimeNs t_ns) const;
 
   /// Velocity at the end in the body frame there (m/s); nothing if no translation is known.
   const std::optional<Vec3>& vBodyEnd() const { return v_body_end_; }
