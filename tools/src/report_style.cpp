@@ -108,7 +108,7 @@ th, td { padding: 7px 18px 7px 0; border-bottom: 1px solid var(--rule); text-ali
 tbody tr:last-child th, tbody tr:last-child td { border-bottom: 0; }
 th { font-weight: 600; } thead th { color: var(--soft); font-size: .86rem; white-space: nowrap; }
 .number { text-align: right; white-space: nowrap; }
-.bar { display: block; width: 150px; height: 10px; margin-top: 7px; background: var(--grid);
+.bar { display: block; width: 150px; height: 6px; margin-top: 2px; background: var(--grid);
   border-radius: 5px; overflow: hidden; }
 .bar span { display: block; height: 100%; background: var(--s1); }
 .break { overflow-wrap: anywhere; }
