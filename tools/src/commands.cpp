@@ -9,6 +9,8 @@ std::vector<std::unique_ptr<Command>> allCommands() {
   commands.push_back(makeConfigCommand());
   commands.push_back(makeReplayCommand());
   commands.push_back(makeSynthCommand());
+  commands.push_back(makeImportCommand());
+  commands.push_back(makeInfoCommand());
   return commands;
 }
 

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <mrpt/poses/CPose3D.h>
+
+#include <string>
+
+namespace paloc {
+
+/// A pose as the command line gives it, "x,y,z,yaw,pitch,roll" in m and degrees (rotation
+/// Rz(yaw) Ry(pitch) Rx(roll)). Throws UsageError, naming `option`, on anything else.
+mrpt::poses::CPose3D parsePose(const std::string& text, const std::string& option);
+
+}  // namespace paloc

@@ -1,0 +1,150 @@
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "paloc/core/errors.h"
+#include "paloc/tools/commands.h"
+#include "paloc/tools/import_clouds.h"
+#include "paloc/tools/import_kitti.h"
+#include "paloc/tools/parse_pose.h"
+
+namespace paloc {
+namespace {
+
+constexpr const char* kCloudsExample = R"(Example:
+  paloc import clouds scans --times times.txt --odometry odometry.tum --imu imu.csv -o log.rawlog
+
+Clouds: PCD (ascii, binary, binary_compressed), PLY, KITTI's .bin. A field t, time or timestamp gives
+each point its time, a field ring its laser.
+--times:    lines of `name stamp_of_the_first_point_s [of_the_last_s]`
+--odometry: TUM, the body's pose, at any stamps
+--imu:      CSV with the columns t_s,ax_mps2,ay_mps2,az_mps2,wx_radps,wy_radps,wz_radps
+Exit codes: 0 all imported, 1 part of it could not be used, 2 wrong usage, 3 wrong input.)";
+
+constexpr const char* kKittiExample = R"(Example:
+  paloc import kitti 2011_09_26/2011_09_26_drive_0001_sync -o log.rawlog
+
+Reads velodyne_points, oxts (IMU, and pose as odometry; the body is the oxts unit) and
+calib_imu_to_velo.txt, in the drive's folder or the one above.
+Exit codes: 0 all imported, 1 part of it could not be used, 2 wrong usage, 3 wrong input.)";
+
+const std::map<std::string, TimeUnit> kUnits{{"s", TimeUnit::kSeconds},
+                                             {"ms", TimeUnit::kMilliseconds},
+                                             {"us", TimeUnit::kMicroseconds},
+                                             {"ns", TimeUnit::kNanoseconds}};
+const std::map<std::string, TimeReference> kReferences{{"stamp", TimeReference::kStamp},
+                                                       {"absolute", TimeReference::kAbsolute},
+                                                       {"end", TimeReference::kEnd}};
+
+// A line that is written over, on a terminal only.
+void showProgress(double share) {
+  if (::isatty(STDERR_FILENO) == 0) return;
+  std::fprintf(stderr, "\rimporting %3.0f %%\x1b[K", 100 * share);
+}
+
+class ImportCommand : public Command {
+ public:
+  void registerOn(CLI::App& app) override {
+    import_ = app.add_subcommand("import", "Make a rawlog from other recordings");
+    import_->require_subcommand(1);
+    registerClouds();
+    registerKitti();
+  }
+
+  bool called() const override { return import_->parsed(); }
+
+  ExitCode run() override {
+    output_.compression =
+        gzip_ ? RawlogWriter::Compression::kGzip : RawlogWriter::Compression::kNone;
+    if (!T_body_lidar_.empty()) scans_.T_body_lidar = parsePose(T_body_lidar_, "--T-body-lidar");
+    const ImportSummary summary = clouds_command_->parsed() ? runClouds() : runKitti();
+    if (::isatty(STDERR_FILENO) != 0) std::cerr << "\r\x1b[K";
+    if (json_) {
+      std::cout << jsonOf(summary).dump(2) << '\n';
+    } else {
+      std::cout << tableOf(summary);
+    }
+    std::cout.flush();
+    if (!std::cout) throw IoError("the summary could not be written to standard output");
+    return summary.complete() ? ExitCode::kGood : ExitCode::kDegraded;
+  }
+
+ private:
+  void registerClouds() {
+    CLI::App* c = clouds_command_ = import_->add_subcommand("clouds", "A folder of point clouds");
+    c->add_option("DIR", clouds_.folder, "folder of the clouds")->required();
+    c->add_option("--times", clouds_.times_file, "names and stamps of the scans")->required();
+    c->add_option("--odometry", clouds_.odometry_file, "odometry of the body (TUM)");
+    c->add_option("--imu", clouds_.imu_file, "IMU (CSV)");
+    c->add_option("--time-unit", unit_, "unit of the points' times; else decided from the values")
+        ->check(CLI::IsMember(kUnits));
+    c->add_option("--time-reference", reference_,
+                  "what they count from: the scan's stamp, the stamps' clock (absolute), or "
+                  "backwards from the scan's end; else decided from the values")
+        ->check(CLI::IsMember(kReferences));
+    auto* yes = c->add_flag("--deskewed", deskewed_, "the scans are already deskewed");
+    c->add_flag("--not-deskewed", not_deskewed_, "the scans are not deskewed")->excludes(yes);
+    addCommon(c);
+    c->footer(kCloudsExample);
+  }
+
+  void registerKitti() {
+    CLI::App* c = kitti_command_ = import_->add_subcommand("kitti", "A drive of KITTI's raw data");
+    c->add_option("DRIVE_DIR", kitti_.drive, "folder of the drive")->required();
+    c->add_option("--calib", kitti_.calibration, "folder of calib_imu_to_velo.txt");
+    c->add_flag("--azimuth-times", scans_.azimuth_times,
+                "give points the time when the spinning LiDAR looked their way");
+    addCommon(c);
+    c->footer(kKittiExample);
+  }
+
+  void addCommon(CLI::App* c) {
+    c->add_option("-o,--output", output_.file, "rawlog to write")->required();
+    c->add_option("--T-body-lidar", T_body_lidar_,
+                  "x,y,z,yaw,pitch,roll (m, degrees) of the LiDAR in the body: p_body = T p_lidar");
+    c->add_option("--lidar-label", scans_.label, "sensor label of the scans")
+        ->capture_default_str();
+    c->add_option("--imu-label", output_.imu_label, "of the IMU")->capture_default_str();
+    c->add_option("--odometry-label", output_.odometry_label, "of the odometry")
+        ->capture_default_str();
+    c->add_flag("--stock", scans_.stock, "MRPT's own classes only (intensities in 8 bits)");
+    c->add_flag("--gzip", gzip_, "compress (40 ms a scan)");
+    c->add_flag("--overwrite", output_.overwrite, "replace an existing rawlog");
+    c->add_flag("--json", json_, "one JSON object on standard output");
+  }
+
+  ImportSummary runClouds() {
+    if (!unit_.empty()) clouds_.time_unit = kUnits.at(unit_);
+    if (!reference_.empty()) clouds_.time_reference = kReferences.at(reference_);
+    if (deskewed_) scans_.deskewed = Deskewed::kYes;
+    if (not_deskewed_) scans_.deskewed = Deskewed::kNo;
+    clouds_.scans = scans_;
+    clouds_.output = output_;
+    return importClouds(clouds_, showProgress);
+  }
+
+  ImportSummary runKitti() {
+    kitti_.has_T_body_lidar = !T_body_lidar_.empty();
+    kitti_.scans = scans_;
+    kitti_.output = output_;
+    return importKitti(kitti_, showProgress);
+  }
+
+  CLI::App *import_ = nullptr, *clouds_command_ = nullptr, *kitti_command_ = nullptr;
+  ImportCloudsSettings clouds_;
+  ImportKittiSettings kitti_;
+  ScanConversion scans_;
+  ImportOutput output_;
+  std::string T_body_lidar_, unit_, reference_;
+  bool deskewed_ = false, not_deskewed_ = false, gzip_ = false, json_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> makeImportCommand() { return std::make_unique<ImportCommand>(); }
+
+}  // namespace paloc
