@@ -109,10 +109,13 @@ void RecordedOdometry::addLidar(const mrpt::obs::CObservation& observation) {
   if (!problem.empty()) return skip(observation, problem);
   last_end_ns_ = frame->endNs();
   newest_ns_ = std::max(newest_ns_.value_or(frame->stamp_ns), frame->stamp_ns);
-  note("LiDAR '" + frame->label + "' (" + frame->class_name + "): " + frame->time_policy +
-       (frame->duration_ns > 0
-            ? format(", %.1f ms a scan", static_cast<double>(frame->duration_ns) * 1e-6)
-            : ""));
+  // Once for each way of reading: the duration varies a little from scan to scan.
+  if (said_.insert("times of " + frame->label + ": " + frame->time_policy).second) {
+    note("LiDAR '" + frame->label + "' (" + frame->class_name + "): " + frame->time_policy +
+         (frame->duration_ns > 0
+              ? format(", %.1f ms a scan", static_cast<double>(frame->duration_ns) * 1e-6)
+              : ""));
+  }
   waiting_.push_back(std::move(*frame));
 }
 
