@@ -27,8 +27,10 @@ std::vector<Setting> estimatorSettings() {
            "Width of the map factor's Huber kernel, in standard deviations.");
   s.number("odometry_robust_width", &S::odometry_robust_width, "", {0.1, 1e6},
            "Width of the odometry factor's Huber kernel, in standard deviations.");
-  s.number("map_correlated_scans", &S::map_correlated_scans, "", {1, 1000},
-           "Scans in a row that share their errors: the information of each is divided by it.");
+  s.number(
+      "map_correlation_time_s", &S::map_correlation_time_s, "s", {0.001, 1000},
+      "So long the same surfaces stay in view with the same errors of the map: scans within it "
+      "share one scan's information.");
   s.count("max_start_attempts", &S::max_start_attempts, {1, 1000000},
           "Scans tried from the initial pose before giving up.");
   s.count("relocate_after_refusals", &S::relocate_after_refusals, {1, 1000000},

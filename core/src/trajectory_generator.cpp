@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kMinGuessSigmaPosition = 0.03;  // m: registration may always correct this much
 constexpr double kMinGuessSigmaRotation = 0.01;  // rad
+constexpr double kFirstFrameInterval_s = 0.1;    // stands for the time since a frame that never was
 
 double rootOfTrace(const StateMatrix& covariance, int offset) {
   return std::sqrt(std::max(0.0, covariance.diagonal().segment<3>(offset).sum()));
@@ -99,7 +100,7 @@ void TrajectoryGenerator::start(const OdometryFrame& frame, const MapMatch& matc
   node.t_ns = frame.t_ns;
   node.state.T_map_body = fromMrpt(match.T_map_body);
   node.node_factors.push_back(startPrior(node.state, settings_));
-  addMapFactor(match, node);
+  addMapFactor(match, kFirstFrameInterval_s, node);
   if (smoother_.add(node).status == UpdateSummary::Status::kRefused) return;
   history_.push_back({std::move(node), diagnostics_.size() - 1});
 }
@@ -129,7 +130,7 @@ void TrajectoryGenerator::advance(const OdometryFrame& frame) {
   row.guess_step_position = step.head<3>();
   row.guess_step_rotation = step.tail<3>().norm();
   addEdgeFactors(frame, imu, dt_s, node, row);
-  if (row.match.accepted()) addMapFactor(row.match, node);
+  if (row.match.accepted()) addMapFactor(row.match, dt_s, node);
   append(std::move(node), row);
 }
 
@@ -174,10 +175,16 @@ void TrajectoryGenerator::addEdgeFactors(const OdometryFrame& frame,
   row.has_odometry_factor = frame.continues;
 }
 
-void TrajectoryGenerator::addMapFactor(const MapMatch& match, ChainNode& node) const {
-  const RobustKernel kernel{RobustKernel::Kind::kHuber, settings_.map_robust_width};
-  node.node_factors.push_back(MapFactor(
-      fromMrpt(match.T_map_body), match.information / settings_.map_correlated_scans, kernel));
+// Consecutive scans see the same surfaces with the same errors of the map, so they are not
+// independent. The kernel's width refers to a scan on its own: a single bad one must not hide
+// behind the smaller share.
+void TrajectoryGenerator::addMapFactor(const MapMatch& match, double since_last_s,
+                                       ChainNode& node) const {
+  const double share = std::min(1.0, since_last_s / settings_.map_correlation_time_s);
+  const RobustKernel kernel{RobustKernel::Kind::kHuber,
+                            settings_.map_robust_width * std::sqrt(share)};
+  node.node_factors.push_back(
+      MapFactor(fromMrpt(match.T_map_body), match.information * share, kernel));
 }
 
 void TrajectoryGenerator::append(ChainNode node, FrameDiagnostics row) {

@@ -25,9 +25,9 @@ struct EstimatorSettings {
   double map_robust_width = 4.0;       ///< Huber's, of the map factor, in standard deviations
   double odometry_robust_width = 4.0;  ///< likewise of the odometry factor
 
-  /// The same surfaces with the same errors are seen by so many scans in a row: the information of
-  /// each is divided by it.
-  double map_correlated_scans = 5.0;
+  /// For so long the same surfaces stay in view, with the same errors of the map: scans within this
+  /// time are one measurement together, and each gets its share of the information.
+  double map_correlation_time_s = 10.0;
 
   int max_start_attempts = 50;  ///< scans tried from the initial pose before giving up
   int relocate_after_refusals =

@@ -55,7 +55,7 @@ class PALOC_EXPORT TrajectoryGenerator {
   MapMatch matchScan(const OdometryFrame& frame, const State& predicted, double dt_s);
   void addEdgeFactors(const OdometryFrame& frame, const std::optional<ImuFactor>& imu, double dt_s,
                       ChainNode& node, FrameDiagnostics& row) const;
-  void addMapFactor(const MapMatch& match, ChainNode& node) const;
+  void addMapFactor(const MapMatch& match, double since_last_s, ChainNode& node) const;
   void append(ChainNode node, FrameDiagnostics row);
   void collectLeft();
   TrajectoryPoint pointOf(const NodeEstimate& estimate, std::size_t history_index) const;
