@@ -23,7 +23,7 @@ std::string compressed(const std::string& raw) {
   uLongf size = compressBound(raw.size());
   std::string bytes(size, '\0');
   const int code = compress2(reinterpret_cast<Bytef*>(bytes.data()), &size,
-                             reinterpret_cast<const Bytef*>(raw.data()), raw.size(), 9);
+                             reinterpret_cast<const Bytef*>(raw.data()), raw.size(), 6);
   if (code != Z_OK) throw std::runtime_error("zlib could not compress an image");
   bytes.resize(size);
   return bytes;

@@ -50,12 +50,11 @@ std::string navigation(const std::string& body) {
 
 std::string pageOf(const ReportData& data) {
   const ReportSummary summary = summaryOf(data.result);
-  const std::string body = report::mapSection(data, summary) +
-                           report::stretchesSection(data, summary) +
-                           report::timeSection(data, summary) +
-                           report::mapFactorsSection(data, summary) + report::unusedSection(data) +
-                           report::notesSection(data) + report::stagesSection(data, summary) +
-                           report::filesSection(data) + report::reproduceSection(data);
+  const std::string body =
+      report::mapSection(data, summary) + report::stretchesSection(data, summary) +
+      report::timeSection(data, summary) + report::mapFactorsSection(data, summary) +
+      report::unusedSection(data) + report::notesSection(data) + report::stagesSection(data) +
+      report::filesSection(data) + report::reproduceSection(data);
   return headOf(data) + "<body>\n<div class=\"page\">\n" + pageHeader(data) + "<main>\n" +
          report::verdictSection(data, summary) + report::keyFigures(data, summary) +
          navigation(body) + body +

@@ -190,7 +190,7 @@ std::string unusedSection(const ReportData& data) {
          "</section>\n";
 }
 
-std::string stagesSection(const ReportData& data, const ReportSummary&) {
+std::string stagesSection(const ReportData& data) {
   if (data.stages.empty()) return "";
   double total_ms = 0;
   for (const ReportStage& stage : data.stages) total_ms += stage.total_ms;

@@ -20,7 +20,7 @@ std::string stretchesSection(const ReportData& data, const ReportSummary& summar
 std::string mapFactorsSection(const ReportData& data, const ReportSummary& summary);
 std::string unusedSection(const ReportData& data);
 std::string notesSection(const ReportData& data);
-std::string stagesSection(const ReportData& data, const ReportSummary& summary);
+std::string stagesSection(const ReportData& data);
 std::string filesSection(const ReportData& data);
 std::string reproduceSection(const ReportData& data);
 
