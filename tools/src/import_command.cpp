@@ -111,7 +111,8 @@ class ImportCommand : public Command {
     c->add_option("--imu-label", output_.imu_label, "of the IMU")->capture_default_str();
     c->add_option("--odometry-label", output_.odometry_label, "of the odometry")
         ->capture_default_str();
-    c->add_flag("--stock", scans_.stock, "MRPT's own classes only (intensities in 8 bits)");
+    c->add_flag("--stock", scans_.stock,
+                "MRPT's own classes only (with point times, intensities in 8 bits)");
     c->add_flag("--gzip", gzip_, "compress (40 ms a scan)");
     c->add_flag("--overwrite", output_.overwrite, "replace an existing rawlog");
     c->add_flag("--json", json_, "one JSON object on standard output");

@@ -1,6 +1,7 @@
 #include <mrpt/system/os.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -48,8 +49,8 @@ class InfoCommand : public Command {
   static void loadPlugin(const std::string& plugin) {
     std::string why;
     if (mrpt::system::loadPluginModule(plugin, why)) return;
-    throw IoError(
-        text("the plugin ", plugin, " cannot be loaded: ", why.substr(0, why.find('\n'))));
+    std::replace(why.begin(), why.end(), '\n', ' ');
+    throw IoError(text("the plugin ", plugin, " cannot be loaded: ", why));
   }
 
   CLI::App* info_ = nullptr;
