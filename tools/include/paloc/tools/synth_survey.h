@@ -9,7 +9,7 @@ namespace paloc::synth {
 
 /// A terrestrial laser scanner and what is done with its scans. Defaults: like a Leica BLK360.
 struct SurveyModel {
-  double angular_step_deg = 0.15;
+  double angular_step_deg = 0.2;
   double lowest_elevation_deg = -60;  ///< below, the tripod
   double min_range_m = 0.6;
   double max_range_m = 60;
