@@ -27,21 +27,31 @@ Mat3 pseudoInverse(const Mat3& block) {
   return solver.eigenvectors() * inverse.asDiagonal() * solver.eigenvectors().transpose();
 }
 
-// The three by three block of one kind with the other kind eliminated, and how the other follows.
-struct Reduced {
-  Mat3 schur;
-  Mat3 follow;  // other = follow * own
-};
-
-Reduced reduce(const Mat6& information, int own) {
+// The three by three block of one kind with the other kind eliminated.
+Mat3 schurComplement(const Mat6& information, int own) {
   const int other = kRotation - own;
-  const Mat3 other_inverse = pseudoInverse(information.block<3, 3>(other, other));
   const Mat3 cross = information.block<3, 3>(other, own);
-  Reduced reduced;
-  reduced.follow = -other_inverse * cross;
-  reduced.schur = information.block<3, 3>(own, own) + cross.transpose() * reduced.follow;
-  reduced.schur = (0.5 * (reduced.schur + reduced.schur.transpose())).eval();
-  return reduced;
+  const Mat3 schur =
+      information.block<3, 3>(own, own) -
+      cross.transpose() * pseudoInverse(information.block<3, 3>(other, other)) * cross;
+  return 0.5 * (schur + schur.transpose());
+}
+
+// How the other kind follows a motion of this one: other = follow * own. What noise alone would
+// give is added to the block that is inverted: else a direction that nothing fixes, the axis of a
+// corridor, would follow any rotation by metres.
+Mat3 followingMotion(std::span<const PlaneRow> rows, const Mat6& information, int own,
+                     const DegeneracyNoise& noise) {
+  const int other = kRotation - own;
+  double noise_information = 0;
+  const double floor_var = noise.normal_sigma_rad * noise.normal_sigma_rad;
+  for (const PlaneRow& row : rows) {
+    const double normal_var = floor_var + row.normal_sigma * row.normal_sigma;
+    const double lever_sq = other == kTranslation ? 1 : row.point_body.squaredNorm();
+    noise_information += kSignalToNoise * normal_var * lever_sq / row.variance;
+  }
+  const Mat3 block = information.block<3, 3>(other, other) + noise_information * Mat3::Identity();
+  return -pseudoInverse(block) * information.block<3, 3>(other, own);
 }
 
 struct Support {
@@ -92,14 +102,13 @@ double factorOf(const MatchDirection& direction) {
 
 // The three directions of one kind, weakest first, with shares, probabilities and sigmas.
 void observeKind(std::span<const PlaneRow> rows, const Mat6& information,
-                 const DegeneracyNoise& noise, int own,
-                 std::array<MatchDirection, 6>& directions) {
-  const Reduced reduced = reduce(information, own);
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(reduced.schur);
+                 const DegeneracyNoise& noise, int own, std::array<MatchDirection, 6>& directions) {
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(schurComplement(information, own));
+  const Mat3 follow = followingMotion(rows, information, own, noise);
   std::array<double, 3> counts{}, eigenvalues{};
   for (int i = 0; i < 3; ++i) {
     const Vec3 axis = solver.eigenvectors().col(i);
-    const Vec3 other = reduced.follow * axis;
+    const Vec3 other = follow * axis;
     const Support support = own == kTranslation ? measureSupport(rows, axis, other, noise)
                                                 : measureSupport(rows, other, axis, noise);
     MatchDirection& direction = directions[static_cast<std::size_t>(own + i)];
@@ -123,7 +132,7 @@ void attenuateKind(int own, const std::array<MatchDirection, 6>& directions, Mat
     const MatchDirection& direction = directions[static_cast<std::size_t>(own + i)];
     const double factor = factorOf(direction);
     if (factor >= 1) continue;
-    const Mat3 schur = reduce(information, own).schur;
+    const Mat3 schur = schurComplement(information, own);
     const Vec3 x = schur * direction.axis_body;
     const double along = direction.axis_body.dot(x);
     if (along <= 0) continue;
@@ -145,8 +154,8 @@ ObservedDirections observeDirections(std::span<const PlaneRow> rows, const Mat6&
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(observed.information);
   const Vec6 eigenvalues = solver.eigenvalues().cwiseMax(0.0);
   if (solver.eigenvalues()[0] < 0) {
-    observed.information = solver.eigenvectors() * eigenvalues.asDiagonal() *
-                           solver.eigenvectors().transpose();
+    observed.information =
+        solver.eigenvectors() * eigenvalues.asDiagonal() * solver.eigenvectors().transpose();
   }
   observed.information = (0.5 * (observed.information + observed.information.transpose())).eval();
   return observed;

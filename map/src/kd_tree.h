@@ -24,10 +24,9 @@ struct PointAdaptor {
   }
 };
 
-using KdTree =
-    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, PointAdaptor, float,
-                                                                     std::uint32_t>,
-                                        PointAdaptor, 3, std::uint32_t>;
+using KdTree = nanoflann::KDTreeSingleIndexAdaptor<
+    nanoflann::L2_Simple_Adaptor<float, PointAdaptor, float, std::uint32_t>, PointAdaptor, 3,
+    std::uint32_t>;
 
 /// Result set of nanoflann for one neighbour within a distance.
 struct NearestResult {

@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kSamePlaneCosine = 0.978;  // 12 degrees
 constexpr double kSamePlaneHeightM = 0.1;
+constexpr double kSharedThickness = 0.25;  // of the square
 
 struct PatchSums {
   Vec6 jacobian = Vec6::Zero();  // Y_k
@@ -18,9 +19,8 @@ struct PatchSums {
 
 }  // namespace
 
-NormalEquations sharedErrorEquations(std::span<const PlaneRow> rows, int patches,
-                                     const SharedErrors& shared) {
-  std::vector<PatchSums> sums(static_cast<std::size_t>(patches));
+NormalEquations sharedErrorEquations(std::span<const PlaneRow> rows, const SharedErrors& shared) {
+  std::vector<PatchSums> sums(shared.patch_variances.size());
   NormalEquations equations;
   Vec6 range_jacobian = Vec6::Zero();
   double range_weight = 0, range_residual = 0;
@@ -33,36 +33,38 @@ NormalEquations sharedErrorEquations(std::span<const PlaneRow> rows, int patches
     range_jacobian += row.range_factor * weighted;
     range_weight += weight * row.range_factor * row.range_factor;
     range_residual += weight * row.range_factor * row.residual;
-    if (row.patch < 0) continue;
+    if (row.patch < 0 || sums.empty()) continue;
     PatchSums& patch = sums[static_cast<std::size_t>(row.patch)];
     patch.jacobian += weighted;
     patch.weight += weight;
     patch.range += weight * row.range_factor;
     patch.residual += weight * row.residual;
   }
-  if (shared.plane_bias_m > 0) {
-    const double prior = 1 / (shared.plane_bias_m * shared.plane_bias_m);
-    for (const PatchSums& patch : sums) {
-      const double inverse = 1 / (prior + patch.weight);
-      equations.information.noalias() -= inverse * patch.jacobian * patch.jacobian.transpose();
-      equations.gradient -= (inverse * patch.residual) * patch.jacobian;
-      range_jacobian -= (inverse * patch.range) * patch.jacobian;
-      range_weight -= inverse * patch.range * patch.range;
-      range_residual -= inverse * patch.range * patch.residual;
-    }
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    if (shared.patch_variances[k] <= 0) continue;
+    const PatchSums& patch = sums[k];
+    const double inverse = 1 / (1 / shared.patch_variances[k] + patch.weight);
+    equations.information.noalias() -= inverse * patch.jacobian * patch.jacobian.transpose();
+    equations.gradient -= (inverse * patch.residual) * patch.jacobian;
+    range_jacobian -= (inverse * patch.range) * patch.jacobian;
+    range_weight -= inverse * patch.range * patch.range;
+    range_residual -= inverse * patch.range * patch.residual;
   }
   if (shared.range_bias_m > 0) {
     const double inverse = 1 / (1 / (shared.range_bias_m * shared.range_bias_m) + range_weight);
     equations.information.noalias() -= inverse * range_jacobian * range_jacobian.transpose();
     equations.gradient -= (inverse * range_residual) * range_jacobian;
   }
-  equations.information = (0.5 * (equations.information + equations.information.transpose())).eval();
+  equations.information =
+      (0.5 * (equations.information + equations.information.transpose())).eval();
   return equations;
 }
 
-int assignPatches(std::span<PlaneRow> rows, double patch_m) {
+std::vector<double> assignPatches(std::span<PlaneRow> rows, double patch_m, double plane_bias_m) {
   struct Patch {
     Vec3 normal, point;
+    double thickness_sq = 0;
+    int rows = 0;
   };
   std::vector<Patch> patches;
   const double patch_sq = patch_m * patch_m;
@@ -79,8 +81,15 @@ int assignPatches(std::span<PlaneRow> rows, double patch_m) {
     }
     if (index == patches.size()) patches.push_back({row.normal_body, row.point_body});
     row.patch = static_cast<int>(index);
+    patches[index].thickness_sq += row.surface_sigma * row.surface_sigma;
+    ++patches[index].rows;
   }
-  return static_cast<int>(patches.size());
+  std::vector<double> variances(patches.size());
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    variances[k] =
+        plane_bias_m * plane_bias_m + kSharedThickness * patches[k].thickness_sq / patches[k].rows;
+  }
+  return variances;
 }
 
 Mat6 informationInMap(const Mat6& information_body, const Mat3& R_map_body) {

@@ -37,8 +37,8 @@ Corner lowCorner(const PointCloud& cloud, double edge, const std::string& name) 
     low.y = std::min(low.y, p.y), high.y = std::max(high.y, p.y);
     low.z = std::min(low.z, p.z), high.z = std::max(high.z, p.z);
   }
-  const double span = static_cast<double>(
-      std::max(high.x - low.x, std::max(high.y - low.y, high.z - low.z)));
+  const double span =
+      static_cast<double>(std::max(high.x - low.x, std::max(high.y - low.y, high.z - low.z)));
   if (span / edge >= 2 * kVoxelLimit - 2) {
     std::ostringstream message;
     message << name << " spans " << span / 1000 << " km, too much for voxels of " << edge
@@ -53,8 +53,8 @@ std::vector<Keyed> sortedKeys(const PointCloud& cloud, double edge, const Corner
   std::vector<Keyed> keyed(cloud.size());
   const double inverse = 1 / edge;
   const auto number = [inverse](float value, float from) {
-    return static_cast<std::uint64_t>(
-        (static_cast<double>(value) - static_cast<double>(from)) * inverse);
+    return static_cast<std::uint64_t>((static_cast<double>(value) - static_cast<double>(from)) *
+                                      inverse);
   };
   forEachChunk(arena, cloud.size(), kChunk, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {

@@ -7,10 +7,11 @@
 namespace paloc {
 namespace {
 
-constexpr double kMaxThicknessToWidth = 0.65;  // above: a bush or a corner, with no normal to speak of
-constexpr double kMinWidthToLength = 0.15;     // below: a line, whose normal is free to roll
-constexpr double kMaxOwnOffset = 3.0;          // of the point itself, in thicknesses
-constexpr double kMinGapToSpread = 2.0;  // two faces: the gap against the spread of either side
+constexpr double kMaxThicknessToWidth =
+    0.65;                                   // above: a bush or a corner, with no normal to speak of
+constexpr double kMinWidthToLength = 0.15;  // below: a line, whose normal is free to roll
+constexpr double kMaxOwnOffset = 3.0;       // of the point itself, in thicknesses
+constexpr double kMinGapToSpread = 2.0;     // two faces: the gap against the spread of either side
 constexpr float kNotPlanar = -1.0F;
 
 struct Moments {
@@ -72,8 +73,8 @@ Band ownFace(std::span<const float> heights, float own, double clean_m) {
   for (std::size_t i = 1; i < sorted.size(); ++i) {
     if (sorted[i] - sorted[i - 1] > gap) gap = sorted[i] - sorted[i - 1], cut = i;
   }
-  const float thickest = std::max(sorted[cut > 0 ? cut - 1 : 0] - sorted.front(),
-                                  sorted.back() - sorted[cut]);
+  const float thickest =
+      std::max(sorted[cut > 0 ? cut - 1 : 0] - sorted.front(), sorted.back() - sorted[cut]);
   if (static_cast<double>(gap) > 4 * clean_m &&
       static_cast<double>(gap) > kMinGapToSpread * static_cast<double>(thickest) / 2) {
     (own < sorted[cut] ? end : begin) = cut;
@@ -81,8 +82,7 @@ Band ownFace(std::span<const float> heights, float own, double clean_m) {
   const std::size_t count = end - begin;
   const float median = sorted[begin + count / 2];
   // Half of the middle half: 0.6745 standard deviations of a normal distribution.
-  const float half_quartiles =
-      (sorted[begin + (3 * count) / 4] - sorted[begin + count / 4]) / 2;
+  const float half_quartiles = (sorted[begin + (3 * count) / 4] - sorted[begin + count / 4]) / 2;
   const float sigma = std::max(half_quartiles / 0.6745F, static_cast<float>(clean_m) / 2);
   return {std::max(sorted[begin], median - 3 * sigma),
           std::min(sorted[end - 1], median + 3 * sigma)};
@@ -98,10 +98,15 @@ MapPlane fitPlane(std::span<const Point3f> relative, float radius_m, const Plane
   Moments m = moments(relative, {}, 0, 0);
   if (m.count < limits.min_points) return plane;
   if (std::sqrt(m.variances[0]) > limits.clean_thickness_m) {
+    // Two faces as far apart as the neighbourhood is wide make the normal of all its points turn:
+    // then the nearer half, which is mostly the point's own face, shows it better.
+    const Moments nearer =
+        moments(relative.first(std::max<std::size_t>(relative.size() / 2, 3)), {}, 0, 0);
+    if (nearer.variances[0] * m.variances[1] < m.variances[0] * nearer.variances[1]) m = nearer;
     const std::span<float> heights = scratch.first(relative.size());
     measureHeights(relative, m, heights);
-    const Band band = ownFace(heights, static_cast<float>(-m.normal.dot(m.centroid)),
-                              limits.clean_thickness_m);
+    const Band band =
+        ownFace(heights, static_cast<float>(-m.normal.dot(m.centroid)), limits.clean_thickness_m);
     const Moments refined = moments(relative, heights, band.low, band.high);
     if (refined.count >= limits.min_points) m = refined;
   }

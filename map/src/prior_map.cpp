@@ -52,21 +52,22 @@ std::vector<MapPlane> fitPlanes(const std::vector<Point3f>& points, const KdTree
   std::vector<MapPlane> planes(points.size());
   forEachChunk(arena, points.size(), kPlaneChunk,
                [&](std::size_t, std::size_t begin, std::size_t end) {
-    std::vector<std::uint32_t> indices(neighbours);
-    std::vector<float> distances(neighbours), scratch(neighbours);
-    std::vector<Point3f> relative(neighbours);
-    for (std::size_t i = begin; i < end; ++i) {
-      const Point3f& p = points[i];
-      const std::size_t found = tree.knnSearch(&p.x, neighbours, indices.data(), distances.data());
-      std::size_t count = 0;
-      while (count < found && distances[count] <= max_sq) {
-        const Point3f& q = points[indices[count]];
-        relative[count++] = {q.x - p.x, q.y - p.y, q.z - p.z};
-      }
-      const float radius = std::sqrt(distances[count > 0 ? count - 1 : 0]);
-      planes[i] = fitPlane({relative.data(), count}, radius, limits, scratch);
-    }
-  });
+                 std::vector<std::uint32_t> indices(neighbours);
+                 std::vector<float> distances(neighbours), scratch(neighbours);
+                 std::vector<Point3f> relative(neighbours);
+                 for (std::size_t i = begin; i < end; ++i) {
+                   const Point3f& p = points[i];
+                   const std::size_t found =
+                       tree.knnSearch(&p.x, neighbours, indices.data(), distances.data());
+                   std::size_t count = 0;
+                   while (count < found && distances[count] <= max_sq) {
+                     const Point3f& q = points[indices[count]];
+                     relative[count++] = {q.x - p.x, q.y - p.y, q.z - p.z};
+                   }
+                   const float radius = std::sqrt(distances[count > 0 ? count - 1 : 0]);
+                   planes[i] = fitPlane({relative.data(), count}, radius, limits, scratch);
+                 }
+               });
   return planes;
 }
 
@@ -96,8 +97,8 @@ std::shared_ptr<const PriorMap> PriorMap::build(const PointCloud& cloud,
                                                 const MapSettings& settings,
                                                 const std::string& name) {
   if (cloud.size() < kMinPoints) {
-    throw IoError(name + " holds " + std::to_string(cloud.size()) + " points: a prior map needs at least " +
-                  std::to_string(kMinPoints));
+    throw IoError(name + " holds " + std::to_string(cloud.size()) +
+                  " points: a prior map needs at least " + std::to_string(kMinPoints));
   }
   tbb::task_arena arena(std::max(settings.threads, 1));
   auto data = std::make_unique<Data>();

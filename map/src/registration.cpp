@@ -11,15 +11,21 @@ namespace paloc {
 namespace {
 
 constexpr std::size_t kChunk = 256;
-constexpr double kMinIncidenceCosine = 0.1;  // flatter rays say little and are biased by their footprint
-constexpr double kNoiseCosine = 0.2;  // below it the range noise counts no less: the beam has a width
-constexpr double kKernel = 3.0;       // of the Geman-McClure kernel, in robust standard deviations
-constexpr double kInlier = 3.0;       // the same, for what counts as an inlier
+constexpr double kMinIncidenceCosine =
+    0.1;  // flatter rays say little and are biased by their footprint
+constexpr double kNoiseCosine =
+    0.2;                         // below it the range noise counts no less: the beam has a width
+constexpr double kKernel = 3.0;  // of the Geman-McClure kernel, in robust standard deviations
+constexpr double kInlier = 3.0;  // the same, for what counts as an inlier
 constexpr double kMadToSigma = 1.4826;
 constexpr double kConvergedM = 1e-4, kConvergedRad = 2e-5;
 constexpr double kLongestStepM = 0.5, kLongestStepRad = 0.2;
 constexpr double kAnchorSigma = 1e-4;  // m or rad: holds a free direction at the start
 constexpr int kMinRows = 12;
+constexpr int kRestlessIterations =
+    6;  // from then on a point has to move further and further to be
+constexpr double kRestlessGrowth =
+    1.5;  // matched anew, so that matches that flip back and forth settle
 
 Vec3 toVec(const Point3f& p) {
   return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
@@ -76,8 +82,8 @@ bool solveStep(const NormalEquations& equations, Vec6& step) {
   if (ldlt.info() != Eigen::Success || !ldlt.isPositive()) return false;
   step = -ldlt.solve(Eigen::Matrix<double, 6, 1>(equations.gradient));
   if (!step.allFinite()) return false;
-  const double longest = std::max(step.head<3>().norm() / kLongestStepM,
-                                  step.tail<3>().norm() / kLongestStepRad);
+  const double longest =
+      std::max(step.head<3>().norm() / kLongestStepM, step.tail<3>().norm() / kLongestStepRad);
   if (longest > 1) step /= longest;
   return true;
 }
@@ -112,22 +118,25 @@ void Registration::search(Correspondence& match, const Vec3& position, const Vec
   const double roughness = std::max(thickness, settings_.map_noise_m);
   match.fit_variance = roughness * roughness + thickness * thickness / plane.points;
   match.normal_sigma = static_cast<double>(plane.normal_sigma_rad);
+  match.surface_sigma = thickness;
 }
 
-void Registration::associate(const Pose& pose, double gate) {
-  const double research_sq = settings_.research_distance_m * settings_.research_distance_m;
+void Registration::associate(const Pose& pose, double gate, int iteration) {
+  const double research = settings_.research_distance_m *
+                          std::pow(kRestlessGrowth, std::max(iteration - kRestlessIterations, 0));
+  const double research_sq = research * research;
   const Vec3 sensor = pose * sensor_body_;
   reach_ = static_cast<float>(gate);
   forEachChunk(arena_, points_.size(), kChunk,
                [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Vec3 position = pose * toVec(points_[i]);
-      Correspondence& match = matches_[i];
-      if ((position - match.searched_at).squaredNorm() > research_sq) {
-        search(match, position, sensor);
-      }
-    }
-  });
+                 for (std::size_t i = begin; i < end; ++i) {
+                   const Vec3 position = pose * toVec(points_[i]);
+                   Correspondence& match = matches_[i];
+                   if ((position - match.searched_at).squaredNorm() > research_sq) {
+                     search(match, position, sensor);
+                   }
+                 }
+               });
   matched_.clear();
   near_ = 0;
   for (std::size_t i = 0; i < matches_.size(); ++i) {
@@ -148,6 +157,7 @@ PlaneRow Registration::rowOf(std::size_t point, const Mat3& R_body_local, const 
   const double range = ray.norm();
   row.range_factor = range > 0 ? row.normal_body.dot(ray) / range : 0;
   row.normal_sigma = match.normal_sigma;
+  row.surface_sigma = match.surface_sigma;
   const double cosine = std::max(std::abs(row.range_factor), kNoiseCosine);
   const double lever = (position - match.map_point).norm() * match.normal_sigma;
   const double range_part = settings_.range_noise_m * cosine;
@@ -161,17 +171,15 @@ void Registration::linearize(const Pose& pose) {
   const Mat3 R_body_local = pose.rotation.transpose();
   forEachChunk(arena_, matched_.size(), kChunk,
                [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const int patch = rows_[k].patch;
-      rows_[k] = rowOf(matched_[k], R_body_local, pose);
-      rows_[k].patch = patch;
-      sigmas_[k] = std::sqrt(rows_[k].variance);
-    }
-  });
+                 for (std::size_t k = begin; k < end; ++k) {
+                   rows_[k] = rowOf(matched_[k], R_body_local, pose);
+                   sigmas_[k] = std::sqrt(rows_[k].variance);
+                 }
+               });
 }
 
-// Standard deviation of the residuals in units of their expected one, robustly, at least 1: data that
-// fit better than the data sheet says are not believed more than it.
+// Standard deviation of the residuals in units of their expected one, robustly, at least 1: data
+// that fit better than the data sheet says are not believed more than it.
 double Registration::robustScale() {
   scratch_.resize(rows_.size());
   for (std::size_t k = 0; k < rows_.size(); ++k) {
@@ -182,7 +190,8 @@ double Registration::robustScale() {
   return std::max(1.0, kMadToSigma * *middle);
 }
 
-// Iteratively reweighted least squares with the kernel of Geman and McClure: weight (1 + z^2/k^2)^-2.
+// Iteratively reweighted least squares with the kernel of Geman and McClure: weight (1 +
+// z^2/k^2)^-2.
 void Registration::weigh(double scale) {
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     const double z = rows_[k].residual / (scale * sigmas_[k] * kKernel);
@@ -191,16 +200,17 @@ void Registration::weigh(double scale) {
   }
 }
 
-NormalEquations Registration::equations(bool shared, int patches) const {
+NormalEquations Registration::equations(bool shared) {
   if (shared) {
-    return sharedErrorEquations(rows_, patches,
-                                {settings_.plane_bias_m, settings_.range_bias_m});
+    return sharedErrorEquations(
+        rows_, {assignPatches(rows_, settings_.plane_patch_m, settings_.plane_bias_m),
+                settings_.range_bias_m});
   }
   std::vector<NormalEquations> parts(chunkCount(rows_.size(), kChunk));
   forEachChunk(arena_, rows_.size(), kChunk,
                [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-    parts[chunk] = sharedErrorEquations({rows_.data() + begin, end - begin}, 0, {});
-  });
+                 parts[chunk] = sharedErrorEquations({rows_.data() + begin, end - begin}, {});
+               });
   NormalEquations sum;
   for (const NormalEquations& part : parts) {
     sum.information += part.information;
@@ -236,7 +246,7 @@ Alignment Registration::align(const Pose& start, const AlignSchedule& schedule) 
   matches_.assign(points_.size(), {});
   for (int i = 0; i < schedule.max_iterations; ++i) {
     const bool first = i < schedule.first_iterations;
-    associate(pose, first ? schedule.first_gate_m : schedule.gate_m);
+    associate(pose, first ? schedule.first_gate_m : schedule.gate_m, i);
     alignment.iterations = i + 1;
     if (matched_.size() < kMinRows) {
       alignment.near = near_;
@@ -246,8 +256,7 @@ Alignment Registration::align(const Pose& start, const AlignSchedule& schedule) 
     linearize(pose);
     const double scale = robustScale();
     weigh(scale);
-    const int patches = shared ? assignPatches(rows_, settings_.plane_patch_m) : 0;
-    NormalEquations system = equations(shared, patches);
+    NormalEquations system = equations(shared);
     alignment.information_body = system.information;
     summarize(scale, alignment);
     if (alignment.converged) break;
@@ -258,8 +267,7 @@ Alignment Registration::align(const Pose& start, const AlignSchedule& schedule) 
     Vec6 step;
     if (!solveStep(system, step)) break;
     pose = movedInBody(pose, step);
-    const bool small =
-        step.head<3>().norm() < kConvergedM && step.tail<3>().norm() < kConvergedRad;
+    const bool small = step.head<3>().norm() < kConvergedM && step.tail<3>().norm() < kConvergedRad;
     if (!small || first) continue;
     alignment.converged = shared || !schedule.shared_errors;
     shared = schedule.shared_errors;

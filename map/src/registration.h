@@ -34,8 +34,8 @@ struct Alignment {
   Mat6 information_body = Mat6::Zero();  ///< tangent of PlaneRow, before weak directions are scaled
 };
 
-/// Point-to-plane Gauss-Newton on SE(3) of one thinned scan against the map, in the map's local frame. The
-/// correspondences, their order and every sum are the same on any number of threads.
+/// Point-to-plane Gauss-Newton on SE(3) of one thinned scan against the map, in the map's local
+/// frame. The correspondences, their order and every sum are the same on any number of threads.
 class Registration {
  public:
   Registration(const PriorMap& map, const MatcherSettings& settings, tbb::task_arena& arena)
@@ -60,22 +60,23 @@ class Registration {
  private:
   struct Correspondence {
     Eigen::Vector3d searched_at = Eigen::Vector3d::Constant(1e30);  // far from any first pose
-    Vec3 normal = Vec3::Zero();  // of the plane, local frame
-    double height = 0;           // the plane is normal . x = height
-    double distance = 0;         // to the map point, when searched
-    double fit_variance = 0;     // of the plane's height at its centroid
+    Vec3 normal = Vec3::Zero();                                     // of the plane, local frame
+    double height = 0;        // the plane is normal . x = height
+    double distance = 0;      // to the map point, when searched
+    double fit_variance = 0;  // of the plane's height at its centroid
     double normal_sigma = 0;
+    double surface_sigma = 0;
     Vec3 map_point = Vec3::Zero();
     bool near = false, planar = false;
   };
 
-  void associate(const Pose& pose, double gate);
+  void associate(const Pose& pose, double gate, int iteration);
   void search(Correspondence& match, const Vec3& position, const Vec3& sensor) const;
   void linearize(const Pose& pose);
   PlaneRow rowOf(std::size_t point, const Mat3& R_body_local, const Pose& pose) const;
   double robustScale();
   void weigh(double scale);
-  NormalEquations equations(bool shared, int patches) const;
+  NormalEquations equations(bool shared);
   void summarize(double scale, Alignment& alignment);
 
   const PriorMap& map_;
@@ -88,7 +89,7 @@ class Registration {
   std::vector<PlaneRow> rows_;          // one per matched point
   std::vector<double> sigmas_;          // standard deviation of each row's residual, unweighted
   std::vector<double> scratch_;
-  float reach_ = 0;                     // of the searches in hand (m)
+  float reach_ = 0;  // of the searches in hand (m)
   int near_ = 0;
 };
 

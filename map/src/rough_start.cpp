@@ -10,10 +10,11 @@ namespace {
 constexpr std::size_t kCoarsePoints = 800;
 constexpr std::size_t kRays = 300;
 constexpr double kRayStepM = 0.2;
-constexpr double kRayMarginM = 0.5;    // before the end of a ray: that surface may be a little nearer
-constexpr double kBlockRadiusM = 0.08; // a ray this near to a map point passes through its surface
+constexpr double kRayMarginM = 0.5;  // before the end of a ray: that surface may be a little nearer
+constexpr double kBlockRadiusM = 0.08;  // a ray this near to a map point passes through its surface
 constexpr double kFitsM = 0.1;
-constexpr double kGoodShare = 0.8;     // of the points: no further start is tried
+constexpr double kGoodShare =
+    0.9;  // of all matched, and of all matchable: no further start is tried
 
 Pose turned(const Pose& pose, double yaw) {
   return {pose.position, so3::exp(Vec3(0, 0, yaw)) * pose.rotation};
@@ -35,10 +36,10 @@ std::vector<Pose> startsAround(const Pose& rough) {
   return starts;
 }
 
-double fittingShare(const Registration& registration) {
-  std::size_t fitting = 0;
+int fittingPoints(const Registration& registration) {
+  int fitting = 0;
   for (const PlaneRow& row : registration.rows()) fitting += std::abs(row.residual) < kFitsM;
-  return static_cast<double>(fitting) / static_cast<double>(registration.points().size());
+  return fitting;
 }
 
 std::vector<Point3f> everyNth(const std::vector<Point3f>& points, std::size_t count) {
@@ -54,8 +55,8 @@ double blockedShare(const PriorMap& map, const std::vector<Point3f>& points_body
   const Vec3 from = pose * sensor_body;
   std::size_t rays = 0, blocked = 0;
   for (const Point3f& p : everyNth(points_body, kRays)) {
-    const Vec3 to = pose * Vec3(static_cast<double>(p.x), static_cast<double>(p.y),
-                                static_cast<double>(p.z));
+    const Vec3 to =
+        pose * Vec3(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z));
     const double length = (to - from).norm();
     if (length < 2 * kRayMarginM) continue;
     ++rays;
@@ -91,12 +92,15 @@ RoughStart searchAround(Registration& registration, const PriorMap& map,
                            .shared_errors = false};
   registration.setPoints(everyNth(all, kCoarsePoints), sensor);
   Pose best = rough;
-  double best_share = -1;
+  int most = -1;
   for (const Pose& start : startsAround(rough)) {
     const Alignment coarse = registration.align(start, wide);
-    const double share = fittingShare(registration);
-    if (share > best_share) best_share = share, best = coarse.T_local_body;
-    if (best_share > kGoodShare) break;
+    const int fitting = fittingPoints(registration);
+    if (fitting > most) most = fitting, best = coarse.T_local_body;
+    if (fitting > kGoodShare * coarse.matched &&
+        coarse.near > kGoodShare * static_cast<double>(registration.points().size())) {
+      break;
+    }
   }
   registration.setPoints(all, sensor);
   RoughStart found;
@@ -104,9 +108,9 @@ RoughStart searchAround(Registration& registration, const PriorMap& map,
       best, {.first_gate_m = settings.max_distance_m,
              .gate_m = std::min(settings.fine_distance_m, settings.max_distance_m),
              .max_iterations = settings.max_iterations});
-  found.inlier_share = fittingShare(registration);
+  found.fitting_share = fittingPoints(registration) / std::max(1.0, 1.0 * found.alignment.matched);
   found.blocked_share = blockedShare(map, all, sensor, found.alignment.T_local_body);
-  found.verified = found.inlier_share >= settings.locate_min_inlier_share &&
+  found.verified = found.fitting_share >= settings.locate_min_inlier_share &&
                    found.blocked_share <= settings.locate_max_blocked_share;
   return found;
 }

@@ -32,9 +32,10 @@ class ScanMatcher::Work {
                  double sigma_rotation) {
     MapMatch answer = begin(scan, guess);
     if (answer.refusal == MatchRefusal::kNoScan || tooFew(answer)) return answer;
-    const AlignSchedule schedule{.first_gate_m = settings_.max_distance_m,
-                                 .gate_m = std::min(settings_.fine_distance_m, settings_.max_distance_m),
-                                 .max_iterations = settings_.max_iterations};
+    const AlignSchedule schedule{
+        .first_gate_m = settings_.max_distance_m,
+        .gate_m = std::min(settings_.fine_distance_m, settings_.max_distance_m),
+        .max_iterations = settings_.max_iterations};
     const auto start = std::chrono::steady_clock::now();
     const Alignment alignment = registration_.align(toLocal(guess), schedule);
     timing_.align_s = secondsSince(start);
@@ -151,8 +152,7 @@ ScanMatcher::~ScanMatcher() = default;
 
 MapMatch ScanMatcher::match(const Scan& scan, const mrpt::poses::CPose3D& T_map_body_guess,
                             double guess_sigma_position, double guess_sigma_rotation) {
-  return work_->match(scan, fromMrpt(T_map_body_guess), guess_sigma_position,
-                      guess_sigma_rotation);
+  return work_->match(scan, fromMrpt(T_map_body_guess), guess_sigma_position, guess_sigma_rotation);
 }
 
 MapMatch ScanMatcher::locate(const Scan& scan, const mrpt::poses::CPose3D& T_map_body_rough) {

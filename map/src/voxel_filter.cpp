@@ -6,6 +6,12 @@
 #include "voxel_key.h"
 
 namespace paloc {
+namespace {
+
+// However large, voxels that meet at the origin part the points about it into eight.
+constexpr std::size_t kOctants = 8;
+
+}  // namespace
 
 // Gives each point its cell, and each cell the sum of its points.
 void VoxelFilter::hashPoints(std::span<const Point3f> points, double voxel_m) {
@@ -18,8 +24,7 @@ void VoxelFilter::hashPoints(std::span<const Point3f> points, double voxel_m) {
   const double inverse = 1 / voxel_m;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point3f& p = points[i];
-    const std::uint64_t key = voxelIndex(p.x, inverse) |
-                              voxelIndex(p.y, inverse) << kVoxelBits |
+    const std::uint64_t key = voxelIndex(p.x, inverse) | voxelIndex(p.y, inverse) << kVoxelBits |
                               voxelIndex(p.z, inverse) << (2 * kVoxelBits);
     std::uint64_t slot = hashKey(key) & mask;
     while (slots_[slot] != 0 && keys_[slot] != key) slot = (slot + 1) & mask;
@@ -71,8 +76,8 @@ std::vector<std::uint32_t> VoxelFilter::selectAtMost(std::span<const Point3f> po
   std::vector<Point3f> thinned(fine.size());
   for (std::size_t i = 0; i < fine.size(); ++i) thinned[i] = points[fine[i]];
 
-  // On surfaces the number of voxels falls with the square of their edge, a little less where points
-  // are sparse: each try starts from the count of the one before, and always grows.
+  // On surfaces the number of voxels falls with the square of their edge, a little less where
+  // points are sparse: each try starts from the count of the one before, and always grows.
   double voxel = finest_voxel_m;
   std::size_t count = fine.size();
   std::vector<std::uint32_t> kept;
@@ -81,7 +86,8 @@ std::vector<std::uint32_t> VoxelFilter::selectAtMost(std::span<const Point3f> po
     voxel *= std::max(1.02, std::sqrt(ratio) * 1.01);
     kept = select(thinned, voxel);
     count = kept.size();
-  } while (count > max_points);
+  } while (count > max_points && count > kOctants);
+  if (count > max_points) kept.resize(max_points);
   for (std::uint32_t& index : kept) index = fine[index];
   return kept;
 }

@@ -12,35 +12,39 @@ namespace paloc {
 
 /// Noise that can make a direction look constrained that is not.
 struct DegeneracyNoise {
-  double point_sigma_m = 0.02;    ///< of a point of the scan, from the data sheet
-  double normal_sigma_rad = 0.01; ///< of a map normal beyond what its fit tells: uneven walls
+  double point_sigma_m = 0.02;     ///< of a point of the scan, from the data sheet
+  double normal_sigma_rad = 0.01;  ///< of a map normal beyond what its fit tells: uneven walls
 };
 
-/// The six directions of a pose as the map sees them, and the information that is left when the weak ones
-/// have been scaled down.
+/// The six directions of a pose as the map sees them, and the information that is left when the
+/// weak ones have been scaled down.
 struct ObservedDirections {
-  std::array<MatchDirection, 6> directions;  ///< 0..2 translation, 3..5 rotation; weakest first in each
-  Mat6 information = Mat6::Zero();           ///< body tangent, symmetric, positive semidefinite
+  std::array<MatchDirection, 6>
+      directions;                   ///< 0..2 translation, 3..5 rotation; weakest first in each
+  Mat6 information = Mat6::Zero();  ///< body tangent, symmetric, positive semidefinite
 };
 
-/// Classes the directions of a pose (design, 4.6). They are the eigenvectors of the Schur complements
-/// S_t = H_tt - H_tR H_RR^-1 H_Rt and S_R, so that a corridor shows whichever way it lies and rotation and
-/// translation do not mix. Moving along direction v, the other three free to follow, moves the point p by
-/// m = v + w x p, where (v, w) = (v, -H_RR^-1 H_Rt v), or likewise for a rotation. Of each direction:
+/// Classes the directions of a pose (design, 4.6). They are the eigenvectors of the Schur
+/// complements S_t = H_tt - H_tR H_RR^-1 H_Rt and S_R, so that a corridor shows whichever way it
+/// lies and rotation and translation do not mix. Moving along direction v, the other three free to
+/// follow, moves the point p by m = v + w x p, where (v, w) = (v, -H_RR^-1 H_Rt v), or likewise for
+/// a rotation. Of each direction:
 ///
 /// - share: of the points, those whose normal sees that motion, |n . m| > |m| / 2, over
 ///   the largest share of the three directions of its kind;
 /// - probability: that the information q = sum (n . m)^2 / D is more than noise. Errors of the
 ///   normals (isotropic, sigma_n) and of the points alone give it the mean
-///   E = sum (sigma_n^2 (|m|^2 - (n . m)^2) + sigma_p^2 |w x n|^2) / D and a variance; the direction is
-///   informative when its true part q - E exceeds 10 E, taken as normally distributed (after Hatleskog and
-///   Alexis, "Probabilistic Degeneracy Detection for Point-to-Plane Error Minimization", 2024).
+///   E = sum (sigma_n^2 (|m|^2 - (n . m)^2) + sigma_p^2 |w x n|^2) / D and a variance; the
+///   direction is informative when its true part q - E exceeds 10 E, taken as normally distributed
+///   (after Hatleskog and Alexis, "Probabilistic Degeneracy Detection for Point-to-Plane Error
+///   Minimization", 2024).
 ///
-/// Their product (share up to 1/10 counts in proportion) scales the information along the direction, and
-/// classes it: full above 0.95, none below 0.05, which leaves exactly zero. Scaled by f, the information
-/// becomes H - (1 - f) x x^T / (v^T S v) with x = (S v, 0): what other directions know by way of v stays.
-/// `information` is that of the rows in the tangent of PlaneRow, under shared errors or not. The sigma of a
-/// direction is that of the scaled information; of one without constraint 1e6.
+/// Their product (share up to 1/10 counts in proportion) scales the information along the
+/// direction, and classes it: full above 0.95, none below 0.05, which leaves exactly zero. Scaled
+/// by f, the information becomes H - (1 - f) x x^T / (v^T S v) with x = (S v, 0): what other
+/// directions know by way of v stays. `information` is that of the rows in the tangent of PlaneRow,
+/// under shared errors or not. The sigma of a direction is that of the scaled information; of one
+/// without constraint 1e6.
 PALOC_EXPORT ObservedDirections observeDirections(std::span<const PlaneRow> rows,
                                                   const Mat6& information,
                                                   const DegeneracyNoise& noise);

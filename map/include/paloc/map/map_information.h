@@ -8,18 +8,19 @@
 
 namespace paloc {
 
-/// One point of a scan against its plane of the map, linearized in the body frame. The residual is the
-/// height over the plane (m), r = n . (T p) - d; to first order r(T (+) delta) = r + J delta with
-/// delta = [translation in the body frame (m), rotation on the right (rad)] and
-/// J = [n_body, p_body x n_body], since n . R (w x p) = (R^T n) . (w x p) = (p x R^T n) . w.
+/// One point of a scan against its plane of the map, linearized in the body frame. The residual is
+/// the height over the plane (m), r = n . (T p) - d; to first order r(T (+) delta) = r + J delta
+/// with delta = [translation in the body frame (m), rotation on the right (rad)] and J = [n_body,
+/// p_body x n_body], since n . R (w x p) = (R^T n) . (w x p) = (p x R^T n) . w.
 struct PlaneRow {
   Vec3 normal_body = Vec3::Zero();  ///< unit normal of the plane, in the body frame
   Vec3 point_body = Vec3::Zero();   ///< m
   double residual = 0;              ///< m
-  double variance = 1;      ///< of the residual, the point's own part (m2), over its robust weight
-  double range_factor = 0;  ///< n . ray: by how much a longer range moves the residual
-  double normal_sigma = 0;  ///< standard deviation of the normal's direction (rad)
-  int patch = -1;           ///< the plane patch that it lies on, from 0; -1: none
+  double variance = 1;       ///< of the residual, the point's own part (m2), over its robust weight
+  double range_factor = 0;   ///< n . ray: by how much a longer range moves the residual
+  double normal_sigma = 0;   ///< standard deviation of the normal's direction (rad)
+  double surface_sigma = 0;  ///< standard deviation of the map's points about the plane (m)
+  int patch = -1;            ///< the plane patch that it lies on, from 0; -1: none
 
   Vec6 jacobian() const {
     Vec6 j;
@@ -31,7 +32,8 @@ struct PlaneRow {
 
 /// The errors that points share.
 struct SharedErrors {
-  double plane_bias_m = 0;  ///< standard deviation of the bias of a plane patch
+  std::vector<double>
+      patch_variances;      ///< of the bias of each plane patch (m2); empty: no such bias
   double range_bias_m = 0;  ///< standard deviation of the bias of all ranges of the scan
 };
 
@@ -42,14 +44,14 @@ struct NormalEquations {
 };
 
 /// Information and gradient of generalized least squares under correlated errors. The residuals are
-/// r = J delta + e + B beta, with e ~ N(0, D), D diagonal, and beta ~ N(0, S) the shared errors: one bias
-/// per patch (B: 1 for its points) and one of the range (B: n . ray). Then
+/// r = J delta + e + B beta, with e ~ N(0, D), D diagonal, and beta ~ N(0, S) the shared errors:
+/// one bias per patch (B: 1 for its points) and one of the range (B: n . ray). Then
 ///
 ///   information = J^T (D + B S B^T)^-1 J = J^T D^-1 J - Y^T M^-1 Y,
 ///   Y = B^T D^-1 J,   M = S^-1 + B^T D^-1 B                      (Woodbury).
 ///
 /// A point lies on one patch at most, so the patches' part of M is diagonal,
-/// a_k = 1/plane_bias^2 + sum 1/D, and the range's row g_k = sum (n . ray)/D fills the last row and column:
+/// a_k = 1/S_k + sum 1/D, and the range's row g_k = sum (n . ray)/D fills the last row and column:
 /// an arrow. Eliminating the patches first (Schur complement), with Y_k = sum J/D over the patch,
 ///
 ///   information = J^T D^-1 J - sum_k Y_k Y_k^T / a_k - y y^T / s,
@@ -57,17 +59,22 @@ struct NormalEquations {
 ///   s = 1/range_bias^2 + sum (n . ray)^2/D - sum_k g_k^2 / a_k,
 ///
 /// and the gradient in the same way with r in place of one J. A bias of zero leaves its term out.
-/// `patches` is the number of patches. Cost: some 60 operations a row; summed in the order of the rows.
-PALOC_EXPORT NormalEquations sharedErrorEquations(std::span<const PlaneRow> rows, int patches,
+/// Every row's patch must have its variance, or be -1. Cost: some 60 operations a row; summed in
+/// the order of the rows.
+PALOC_EXPORT NormalEquations sharedErrorEquations(std::span<const PlaneRow> rows,
                                                   const SharedErrors& shared);
 
-/// Gives each row the patch that it lies on and returns their number. Rows share a patch when they lie on
-/// the same plane (normal within 12 degrees, height within 10 cm) and within `patch_m` of the
-/// patch's first row: a wall is one patch however often it is interrupted. Greedy, in order.
-PALOC_EXPORT int assignPatches(std::span<PlaneRow> rows, double patch_m);
+/// Gives each row the patch that it lies on and returns the variance of each patch's bias (m2):
+/// that of the survey, plane_bias^2, and a quarter of the mean square thickness of its surface,
+/// since where a map is thick, neighbouring planes are wrong together (a map of drifting scans is).
+/// Rows share a patch when they lie on the same plane (normal within 12 degrees, height within 10
+/// cm) and within `patch_m` of the patch's first row: a wall is one patch however often it is
+/// interrupted. Greedy, in order.
+PALOC_EXPORT std::vector<double> assignPatches(std::span<PlaneRow> rows, double patch_m,
+                                               double plane_bias_m);
 
-/// Information of the body tangent [translation in the body frame, rotation] as that of the pose's tangent
-/// [position in the map, rotation].
+/// Information of the body tangent [translation in the body frame, rotation] as that of the pose's
+/// tangent [position in the map, rotation].
 PALOC_EXPORT Mat6 informationInMap(const Mat6& information_body, const Mat3& R_map_body);
 
 }  // namespace paloc

@@ -11,11 +11,11 @@ namespace paloc {
 /// The plane that the surface about one map point was found to be.
 struct MapPlane {
   float nx = 0, ny = 0, nz = 0;  ///< unit normal in the map; its sign has no meaning
-  float offset_m = 0;         ///< n . (centroid - point): the plane is n . (x - point) = offset_m
-  float thickness_m = 0;      ///< standard deviation of its points across it; < 0: not planar
-  float normal_sigma_rad = 0; ///< standard deviation of the normal's direction
-  float radius_m = 0;         ///< of the neighbourhood that it was fitted to
-  std::uint32_t points = 0;   ///< that it was fitted to
+  float offset_m = 0;          ///< n . (centroid - point): the plane is n . (x - point) = offset_m
+  float thickness_m = 0;       ///< standard deviation of its points across it; < 0: not planar
+  float normal_sigma_rad = 0;  ///< standard deviation of the normal's direction
+  float radius_m = 0;          ///< of the neighbourhood that it was fitted to
+  std::uint32_t points = 0;    ///< that it was fitted to
 
   bool planar() const { return thickness_m >= 0; }
 };
@@ -30,10 +30,10 @@ struct PlaneFitLimits {
   int min_points = 6;
 };
 
-/// Fits a plane to the neighbours of a point (given relative to it, the point itself included, m) by
-/// principal components. Where they lie thicker than one clean surface: the two faces of a thin wall
-/// are told apart by the gap between them, the face of the point itself is kept, and the
-/// fit is repeated without what lies off it. Not planar: too few points, too thick, a line, an edge or
+/// Fits a plane to the neighbours of a point (given relative to it, the point itself included, m)
+/// by principal components. Where they lie thicker than one clean surface: the two faces of a thin
+/// wall are told apart by the gap between them, the face of the point itself is kept, and the fit
+/// is repeated without what lies off it. Not planar: too few points, too thick, a line, an edge or
 /// a bush (thickness against width), or a point that lies off the plane of its own neighbours.
 /// `scratch` is work space of at least the size of `relative`.
 PALOC_EXPORT MapPlane fitPlane(std::span<const Point3f> relative, float radius_m,

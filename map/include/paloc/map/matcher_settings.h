@@ -4,10 +4,11 @@ namespace paloc {
 
 /// Settings of the registration of a scan to the prior map.
 struct MatcherSettings {
-  double scan_voxel_m = 0.1;       ///< finest voxels that the scan is thinned with
-  int max_points = 4000;           ///< after thinning: the voxels grow until no more are left
-  double max_distance_m = 0.5;     ///< point to map point, in the first two iterations of a tracking match
-  double fine_distance_m = 0.2;    ///< the same, from the third iteration on
+  double scan_voxel_m = 0.1;  ///< finest voxels that the scan is thinned with
+  int max_points = 4000;      ///< after thinning: the voxels grow until no more are left
+  double max_distance_m =
+      0.5;  ///< point to map point, in the first two iterations of a tracking match
+  double fine_distance_m = 0.2;       ///< the same, from the third iteration on
   double research_distance_m = 0.02;  ///< a point that moved less keeps its correspondence
   double range_noise_m = 0.02;     ///< standard deviation of a return's range, from the data sheet
   double map_noise_m = 0.005;      ///< of a map point about its surface
@@ -18,15 +19,15 @@ struct MatcherSettings {
   double min_overlap = 0.2;        ///< share of points that must find a plane
   int min_inliers = 100;
   double max_residual_rms_m = 0.12;
-  double max_step_sigmas = 4;      ///< step from the prediction, in its standard deviations
-  double step_floor_m = 0.1;       ///< added to the prediction's sigma of position (in squares)
-  double step_floor_rad = 0.02;    ///< the same for rotation
+  double max_step_sigmas = 4;    ///< step from the prediction, in its standard deviations
+  double step_floor_m = 0.1;     ///< added to the prediction's sigma of position (in squares)
+  double step_floor_rad = 0.02;  ///< the same for rotation
   int max_iterations = 20;
   double locate_distance_m = 1.5;  ///< point to map point, in the first iterations of a rough start
   double locate_max_step_m = 1.5;  ///< furthest that a rough start is corrected by
   double locate_max_step_rad = 0.35;
-  double locate_min_inlier_share = 0.6;  ///< of the points, within the noise of their plane: else not believed
-  double locate_max_blocked_share = 0.1; ///< of the rays that pass through a surface of the map
+  double locate_min_inlier_share = 0.8;  ///< of the matched points, within 10 cm of their plane
+  double locate_max_blocked_share = 0.2;  ///< of the rays that pass through a surface of the map
   int threads = 2;
 };
 

@@ -15,9 +15,9 @@
 
 namespace paloc {
 
-/// The map that scans are registered to: a cloud, thinned once, with a search tree and the plane about
-/// each of its points, fitted once. Immutable: every query may be made from any thread. The same
-/// cloud and settings give the same map, on any number of threads.
+/// The map that scans are registered to: a cloud, thinned once, with a search tree and the plane
+/// about each of its points, fitted once. Immutable: every query may be made from any thread. The
+/// same cloud and settings give the same map, on any number of threads.
 class PALOC_EXPORT PriorMap {
  public:
   static constexpr std::uint32_t kNoPoint = std::numeric_limits<std::uint32_t>::max();
@@ -31,9 +31,9 @@ class PALOC_EXPORT PriorMap {
 
   /// What the map is made of, for reports.
   struct Statistics {
-    std::size_t points_read = 0;  ///< before thinning
-    std::size_t points = 0;       ///< after
-    std::size_t planar = 0;       ///< of these, with a plane
+    std::size_t points_read = 0;                   ///< before thinning
+    std::size_t points = 0;                        ///< after
+    std::size_t planar = 0;                        ///< of these, with a plane
     Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< bounding box in the map frame (m)
     double sort_s = 0, index_s = 0, planes_s = 0;  ///< time taken by thinning, tree, planes
   };
@@ -42,8 +42,9 @@ class PALOC_EXPORT PriorMap {
   static std::shared_ptr<const PriorMap> load(const std::filesystem::path& file,
                                               const MapSettings& settings);
 
-  /// Builds the map from a cloud; `name` is what errors call it. Throws IoError when the cloud holds fewer
-  /// than 100 points, fewer than 20 points with a plane, or spans more than 2^21 voxels.
+  /// Builds the map from a cloud; `name` is what errors call it. Throws IoError when the cloud
+  /// holds fewer than 100 points, fewer than 20 points with a plane, or spans more than 2^21
+  /// voxels.
   static std::shared_ptr<const PriorMap> build(const PointCloud& cloud, const MapSettings& settings,
                                                const std::string& name = "the prior map");
 
@@ -52,15 +53,15 @@ class PALOC_EXPORT PriorMap {
   PriorMap& operator=(const PriorMap&) = delete;
 
   std::size_t size() const;
-  /// Origin of the local frame (m, in the map frame): p_map = origin + p_local. Points and queries are
-  /// local, so that UTM coordinates keep their millimetres.
+  /// Origin of the local frame (m, in the map frame): p_map = origin + p_local. Points and queries
+  /// are local, so that UTM coordinates keep their millimetres.
   const Vec3& origin() const;
   const Point3f& point(std::uint32_t index) const;  ///< local
   const MapPlane& plane(std::uint32_t index) const;
   const Statistics& statistics() const;
 
-  /// The nearest map point to a local position within a distance (m); of several equally near, any one,
-  /// but always the same.
+  /// The nearest map point to a local position within a distance (m); of several equally near, any
+  /// one, but always the same.
   Nearest nearest(const Point3f& local, float max_distance_m) const;
 
  private:

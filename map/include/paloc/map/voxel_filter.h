@@ -37,9 +37,9 @@ class PALOC_EXPORT VoxelFilter {
 
   void hashPoints(std::span<const Point3f> points, double voxel_m);
 
-  std::vector<std::uint64_t> keys_;          // of the slots
-  std::vector<std::uint32_t> slots_;         // cell + 1; 0 is free
-  std::vector<std::uint32_t> cell_of_;       // of each point
+  std::vector<std::uint64_t> keys_;     // of the slots
+  std::vector<std::uint32_t> slots_;    // cell + 1; 0 is free
+  std::vector<std::uint32_t> cell_of_;  // of each point
   std::vector<Cell> cells_;
 };
 

@@ -1,0 +1,130 @@
+#include "paloc/map/map_information.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <iostream>
+#include <random>
+
+#include "simulated_rooms.h"
+#include "paloc/map/degeneracy.h"
+
+namespace paloc {
+namespace {
+
+std::vector<PlaneRow> randomRows(int count, int patches, std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<PlaneRow> rows(static_cast<std::size_t>(count));
+  for (PlaneRow& row : rows) {
+    row.normal_body = Vec3(normal(random), normal(random), normal(random)).normalized();
+    row.point_body = 4 * Vec3(normal(random), normal(random), normal(random));
+    row.residual = 0.03 * normal(random);
+    row.variance = 1e-4 * (0.5 + uniform(random));
+    row.range_factor = 2 * uniform(random) - 1;
+    row.patch = static_cast<int>(uniform(random) * (patches + 1)) - 1;
+  }
+  return rows;
+}
+
+TEST(MapInformation, EqualsTheDenseFormula) {
+  std::mt19937 random(3);
+  for (double range_bias : {0.0, 0.004}) {
+    const std::vector<PlaneRow> rows = randomRows(60, 5, random);
+    const SharedErrors shared{{1e-5, 4e-5, 9e-5, 2e-6, 3e-5}, range_bias};
+    const auto n = static_cast<Eigen::Index>(rows.size());
+    Eigen::MatrixXd jacobian(n, 6), covariance = Eigen::MatrixXd::Zero(n, n);
+    Eigen::VectorXd residual(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const PlaneRow& a = rows[static_cast<std::size_t>(i)];
+      jacobian.row(i) = a.jacobian().transpose();
+      residual[i] = a.residual;
+      covariance(i, i) += a.variance;
+      for (Eigen::Index j = 0; j < n; ++j) {
+        const PlaneRow& b = rows[static_cast<std::size_t>(j)];
+        covariance(i, j) += range_bias * range_bias * a.range_factor * b.range_factor;
+        if (a.patch >= 0 && a.patch == b.patch) {
+          covariance(i, j) += shared.patch_variances[static_cast<std::size_t>(a.patch)];
+        }
+      }
+    }
+    const Eigen::MatrixXd weighted = covariance.inverse() * jacobian;
+    const Eigen::MatrixXd expected = jacobian.transpose() * weighted;
+    const NormalEquations equations = sharedErrorEquations(rows, shared);
+    EXPECT_LT((equations.information - expected).norm(), 1e-9 * expected.norm());
+    const Eigen::VectorXd gradient = weighted.transpose() * residual;
+    EXPECT_LT((equations.gradient - gradient).norm(), 1e-9 * gradient.norm());
+  }
+}
+
+TEST(MapInformation, TurnsTranslationIntoTheMap) {
+  std::mt19937 random(4);
+  const Mat6 body = sharedErrorEquations(randomRows(40, 0, random), {}).information;
+  const Mat3 R = so3::exp(Vec3(0.3, -0.8, 1.1));
+  Vec6 delta_body, delta_map;
+  delta_body << 0.1, -0.2, 0.3, 0.05, 0.02, -0.01;
+  delta_map = delta_body;
+  delta_map.head<3>() = R * delta_body.head<3>();
+  const double expected = delta_body.dot(body * delta_body);
+  EXPECT_NEAR(delta_map.dot(informationInMap(body, R) * delta_map), expected, 1e-9 * expected);
+}
+
+// Rows of a scan of the empty room against its exact planes, at the truth.
+std::vector<PlaneRow> rowsInRoom(const test::BoxWorld& world, const Scan& scan, const Pose& pose,
+                                 double range_noise) {
+  std::vector<PlaneRow> rows;
+  const test::Box& room = world.boxes[0];
+  for (const Point3f& p : scan.points_body) {
+    PlaneRow row;
+    row.point_body =
+        Vec3(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z));
+    const Vec3 at = pose * row.point_body;
+    double nearest = 1e9;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (double face : {room.low[axis], room.high[axis]}) {
+        if (std::abs(at[axis] - face) > std::abs(nearest)) continue;
+        nearest = at[axis] - face;
+        row.residual = nearest;
+        row.normal_body = pose.rotation.transpose() * Vec3::Unit(axis);
+      }
+    }
+    row.range_factor = row.normal_body.dot(row.point_body.normalized());
+    row.variance = std::pow(range_noise * row.range_factor, 2) + 1e-6;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+TEST(MapInformation, CovarianceHoldsUnderSharedBiases) {
+  const test::BoxWorld world = test::emptyRoom();
+  const Pose truth{Vec3(0.7, -0.4, 1.3), so3::exp(Vec3(0.02, 0.03, 0.6))};
+  constexpr int kRuns = 200;
+  for (double bias : {0.0, 0.003, 0.005, 0.01}) {
+    double nees = 0, plain_nees = 0;
+    for (unsigned run = 0; run < kRuns; ++run) {
+      const Scan scan = test::simulateScan(world, truth, 3000, {0.02, bias, bias}, 30, 100 + run);
+      std::vector<PlaneRow> rows = rowsInRoom(world, scan, truth, 0.02);
+      const SharedErrors shared{assignPatches(rows, 20, bias), bias};
+      const NormalEquations joint = sharedErrorEquations(rows, shared);
+      const NormalEquations plain = sharedErrorEquations(rows, {});
+      const auto neesOf = [](const NormalEquations& e) {
+        const Eigen::Matrix<double, 6, 6> information = e.information;
+        const Eigen::Matrix<double, 6, 1> gradient = e.gradient;
+        const Eigen::Matrix<double, 6, 1> error = information.ldlt().solve(gradient);
+        return error.dot(information * error) / 6;
+      };
+      nees += neesOf(joint) / kRuns;
+      plain_nees += neesOf(plain) / kRuns;
+    }
+    std::cout << "bias " << bias * 1e3 << " mm: NEES/dof " << nees << ", plain sum " << plain_nees
+              << "\n";
+    EXPECT_GT(nees, 0.8) << bias;
+    EXPECT_LT(nees, 1.25) << bias;
+    if (bias >= 0.005) {
+      EXPECT_GT(plain_nees, 5) << bias;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace paloc

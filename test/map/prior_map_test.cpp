@@ -1,0 +1,124 @@
+#include "paloc/map/prior_map.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include "simulated_rooms.h"
+#include "paloc/core/errors.h"
+
+namespace paloc {
+namespace {
+
+TEST(PriorMap, NearestEqualsBruteForce) {
+  const auto map = PriorMap::build(test::sampleMap(test::furnishedRoom(), 0.2, 0.005, 1), {});
+  std::mt19937 random(2);
+  std::uniform_real_distribution<float> uniform(-6, 8);
+  for (int i = 0; i < 300; ++i) {
+    const Point3f query{uniform(random), uniform(random), uniform(random) / 3};
+    float best = 1e30F;
+    for (std::uint32_t k = 0; k < map->size(); ++k) {
+      const Point3f& p = map->point(k);
+      const float dx = p.x - query.x, dy = p.y - query.y, dz = p.z - query.z;
+      best = std::min(best, dx * dx + dy * dy + dz * dz);
+    }
+    const PriorMap::Nearest nearest = map->nearest(query, 1.0F);
+    EXPECT_EQ(nearest.found(), best < 1.0F);
+    if (nearest.found()) {
+      EXPECT_FLOAT_EQ(nearest.distance_sq, best);
+    }
+  }
+}
+
+TEST(PriorMap, PlanesLieOnTheWalls) {
+  const test::BoxWorld world = test::emptyRoom();
+  const auto map = PriorMap::build(test::sampleMap(world, 0.1, 0.003, 1), {});
+  EXPECT_GT(map->statistics().planar, map->size() * 8 / 10);
+  int checked = 0, on_floor = 0;
+  for (std::uint32_t k = 0; k < map->size(); ++k) {
+    const Point3f& p = map->point(k);
+    // On the floor, clear of the walls.
+    if (p.z > 0.02F || std::abs(p.x) > 4.5F || std::abs(p.y) > 3.5F) continue;
+    const MapPlane& plane = map->plane(k);
+    ++on_floor;
+    if (!plane.planar()) continue;  // a point far out in the noise
+    EXPECT_GT(std::abs(plane.nz), 0.995F);
+    EXPECT_LT(plane.thickness_m, 0.006F);
+    EXPECT_LT(std::abs(p.z + plane.offset_m * plane.nz), 0.005F);  // the plane is at z = 0
+    ++checked;
+  }
+  EXPECT_GT(checked, 3000);
+  EXPECT_GT(checked, on_floor * 97 / 100);
+}
+
+TEST(PriorMap, FacesOfAThinWallAreKeptApart) {
+  PointCloud cloud;
+  std::mt19937 random(7);
+  std::normal_distribution<float> noise(0, 0.003F);
+  std::uniform_real_distribution<float> uniform(0, 0.05F);
+  for (int i = 0; i < 40; ++i) {
+    for (int k = 0; k < 40; ++k) {
+      const float x = 0.05F * static_cast<float>(i), z = 0.05F * static_cast<float>(k);
+      cloud.points.push_back({x + uniform(random), noise(random), z + uniform(random)});
+      cloud.points.push_back({x + uniform(random), 0.1F + noise(random), z + uniform(random)});
+    }
+  }
+  const auto map = PriorMap::build(cloud, {.plane_neighbours = 24});
+  std::size_t right = 0, wrong = 0;
+  for (std::uint32_t k = 0; k < map->size(); ++k) {
+    const MapPlane& plane = map->plane(k);
+    if (!plane.planar()) continue;
+    const Point3f& p = map->point(k);
+    const float face = p.y > 0.05F ? 0.1F : 0.0F;
+    const bool on_face = std::abs(p.y + plane.offset_m * plane.ny - face) < 0.015F;
+    ++(on_face && std::abs(plane.ny) > 0.98F ? right : wrong);
+  }
+  EXPECT_GT(right, map->size() * 8 / 10);
+  EXPECT_LT(wrong, map->size() / 10);
+}
+
+TEST(PriorMap, ABushIsNotPlanar) {
+  PointCloud cloud = test::sampleMap(test::emptyRoom(), 0.2, 0.003, 1);
+  std::mt19937 random(9);
+  std::uniform_real_distribution<float> uniform(-0.5F, 0.5F);
+  for (int i = 0; i < 2000; ++i)
+    cloud.points.push_back({uniform(random), uniform(random), 1.5F + uniform(random)});
+  const auto map = PriorMap::build(cloud, {});
+  std::size_t bush = 0, planar = 0;
+  for (std::uint32_t k = 0; k < map->size(); ++k) {
+    const Point3f& p = map->point(k);
+    if (std::abs(p.x) > 0.4F || std::abs(p.y) > 0.4F || p.z < 1.1F || p.z > 1.9F) continue;
+    ++bush;
+    planar += map->plane(k).planar();
+  }
+  ASSERT_GT(bush, 500U);
+  EXPECT_LT(planar, bush / 4);
+}
+
+TEST(PriorMap, SameBytesOnOneThreadAndTwo) {
+  const PointCloud cloud = test::sampleMap(test::furnishedRoom(), 0.08, 0.005, 1);
+  MapSettings settings;
+  settings.threads = 1;
+  const auto one = PriorMap::build(cloud, settings);
+  settings.threads = 2;
+  const auto two = PriorMap::build(cloud, settings);
+  ASSERT_EQ(one->size(), two->size());
+  for (std::uint32_t k = 0; k < one->size(); ++k) {
+    ASSERT_EQ(std::memcmp(&one->point(k), &two->point(k), sizeof(Point3f)), 0);
+    ASSERT_EQ(std::memcmp(&one->plane(k), &two->plane(k), sizeof(MapPlane)), 0);
+  }
+}
+
+TEST(PriorMap, UselessCloudsAreRefused) {
+  EXPECT_THROW(PriorMap::build({}, {}), IoError);
+  PointCloud line;
+  for (int i = 0; i < 1000; ++i) line.points.push_back({0.1F * static_cast<float>(i), 0, 0});
+  EXPECT_THROW(PriorMap::build(line, {}), IoError);
+  line.points.push_back({1e9F, 0, 0});
+  EXPECT_THROW(PriorMap::build(line, {}), IoError);
+}
+
+}  // namespace
+}  // namespace paloc
