@@ -61,7 +61,8 @@ void addLocate(Rows& s) {
   s.number("locate_max_step_rad", &S::locate_max_step_rad, "rad", {0.01, 4},
            "The same for rotation.");
   s.number("locate_min_inlier_share", &S::locate_min_inlier_share, "", {0, 1},
-           "Share of points within the noise of their plane, below which a start is not believed.");
+           "Share of the matched points within 10 cm of their plane, below which a start is not "
+           "believed.");
   s.number("locate_max_blocked_share", &S::locate_max_blocked_share, "", {0, 1},
            "Share of rays through a surface of the map, above which a start is not believed.");
 }
