@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs paloc from a build folder to a temporary prefix, builds the consumer against what was
-# installed, and runs both it and the installed program.
+# installed, and runs it on a recording that the installed program makes.
 set -euo pipefail
 build=$1
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -14,7 +14,10 @@ cp "$here/CMakeLists.txt" "$here/main.cpp" "$work/"
 cmake -G Ninja -S "$work" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_BUILD_TYPE=Release \
   >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 cmake --build "$work/build" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
-"$work/build/consumer"
+
+"$work/prefix/bin/paloc" synth --scene building --sensor vlp-16 --duration 3 -o "$work/data" \
+  >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+"$work/build/consumer" "$work"/data/{recording.rawlog,map.ply,truth.tum}
 
 "$work/prefix/bin/paloc" --version
 # The preset by its name alone: found in the prefix, not in the build folder.
