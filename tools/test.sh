@@ -24,7 +24,7 @@ if ((sanitize)); then
     -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1" >/dev/null
   # MRPT and Embree keep objects until the process ends; they are not ours to free.
   export ASAN_OPTIONS=detect_leaks=0:strict_string_checks=1 UBSAN_OPTIONS=print_stacktrace=1
-  filter=(--label-exclude whole)
+  filter=(--label-exclude 'whole|cli')
 else
   build=build
   cmake -S . -B $build -G Ninja -DCMAKE_BUILD_TYPE=Release >/dev/null
