@@ -48,7 +48,7 @@ std::string shortNumber(double value) {
     std::array<char, 64> buffer{};
     const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
                                             std::chars_format::scientific, 1);
-    return std::string(buffer.data(), end);
+    return {buffer.data(), end};
   }
   const int digits_before = size < 1e-4 ? 1 : static_cast<int>(std::floor(std::log10(size))) + 1;
   return fixedNumber(value, std::clamp(3 - digits_before, 0, 6));

@@ -136,8 +136,10 @@ std::string repairsTable(const RepairCounts& repairs) {
 
 std::string barHtml(double share) {
   const std::string percent = fixedNumber(100 * std::clamp(share, 0.0, 1.0), 1);
-  return percent + " %<span class=\"bar\" aria-hidden=\"true\"><span style=\"width:" + percent +
-         "%\"></span></span>";
+  return percent +
+         " %"
+         R"(<span class="bar" aria-hidden="true"><span style="width:)" +
+         percent + "%\"></span></span>";
 }
 
 }  // namespace

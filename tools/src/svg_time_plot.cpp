@@ -25,7 +25,7 @@ const Layout kNarrow{"narrow", 380, 210, 48, 8, 8, 40, 5, 4};
 struct Scales {
   const Layout& layout;
   PlotRange time_s, value;
-  bool logarithmic;
+  bool logarithmic = false;
 
   double x(double t_s) const {
     return layout.left + (t_s - time_s.min) / time_s.length() * layout.plotWidth();
@@ -96,7 +96,7 @@ std::string valueAxis(const Scales& s, const std::string& unit) {
     svg += svgText(l.left - 6, s.y(v) + 4, "end", text);
   }
   const std::string middle = svgNumber(l.top + l.plotHeight() / 2);
-  return svg + "<text class=\"unit\" text-anchor=\"middle\" transform=\"translate(13 " + middle +
+  return svg + R"(<text class="unit" text-anchor="middle" transform="translate(13 )" + middle +
          ") rotate(-90)\">" + escapeHtml(unit) + "</text>";
 }
 
@@ -181,7 +181,7 @@ std::string openSvg(const Layout& l, const TimePlot& plot) {
   const std::string label = plot.title + (plot.unit.empty() ? "" : " (" + plot.unit + ")") +
                             " over time. " + plot.summary;
   return "<svg class=\"" + l.css + "\" viewBox=\"0 0 " + svgNumber(l.width) + ' ' +
-         svgNumber(l.height) + "\" role=\"img\" aria-label=\"" + escapeHtml(label) + "\">";
+         svgNumber(l.height) + R"(" role="img" aria-label=")" + escapeHtml(label) + "\">";
 }
 
 std::string plotSvg(const TimePlot& plot, const Layout& layout) {

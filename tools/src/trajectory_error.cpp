@@ -12,6 +12,7 @@ using IndexPairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
 std::vector<TimeNs> stampsOf(const std::vector<MatchedPose>& matched) {
   std::vector<TimeNs> stamps;
+  stamps.reserve(matched.size());
   for (const MatchedPose& pair : matched) stamps.push_back(pair.t_ns);
   return stamps;
 }
