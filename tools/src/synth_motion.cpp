@@ -22,7 +22,7 @@ constexpr int kHeld = 5;
 
 Motion::Motion(const std::vector<Pose>& poses, double dt_s, TimeNs start_ns)
     : dt_s_(dt_s), duration_s_(dt_s * static_cast<double>(poses.size() - 1)), start_ns_(start_ns) {
-  controls_.reserve(poses.size() + 2 * kHeld);
+  controls_.reserve(poses.size() + 2UL * kHeld);
   Eigen::Vector4d last(0, 0, 0, 1);
   for (const Pose& pose : poses) {
     Eigen::Vector4d q = Quat(pose.rotation).coeffs();  // x y z w
