@@ -157,7 +157,8 @@ TEST(TrajectoryGenerator, FlagsDegenerateDirections) {
   Simulation simulation;
   simulation.matcher->degenerate = true;
   simulation.duration_s = 3;
-  for (const TrajectoryPoint& p : simulation.run().trajectory) EXPECT_EQ(p.flag, PoseFlag::kDegenerate);
+  for (const TrajectoryPoint& p : simulation.run().trajectory)
+    EXPECT_EQ(p.flag, PoseFlag::kDegenerate);
 }
 
 TEST(TrajectoryGenerator, SaysWhyThereIsNoTrajectory) {

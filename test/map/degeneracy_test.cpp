@@ -5,9 +5,9 @@
 #include <Eigen/Eigenvalues>
 #include <numbers>
 
-#include "simulated_rooms.h"
 #include "paloc/core/mrpt_pose.h"
 #include "paloc/map/scan_matcher.h"
+#include "simulated_rooms.h"
 
 namespace paloc {
 namespace {

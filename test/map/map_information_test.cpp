@@ -6,8 +6,8 @@
 #include <iostream>
 #include <random>
 
-#include "simulated_rooms.h"
 #include "paloc/map/degeneracy.h"
+#include "simulated_rooms.h"
 
 namespace paloc {
 namespace {

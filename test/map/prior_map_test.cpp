@@ -6,8 +6,8 @@
 #include <cstring>
 #include <random>
 
-#include "simulated_rooms.h"
 #include "paloc/core/errors.h"
+#include "simulated_rooms.h"
 
 namespace paloc {
 namespace {

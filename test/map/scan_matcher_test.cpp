@@ -4,8 +4,8 @@
 
 #include <cstring>
 
-#include "simulated_rooms.h"
 #include "paloc/core/mrpt_pose.h"
+#include "simulated_rooms.h"
 
 namespace paloc {
 namespace {

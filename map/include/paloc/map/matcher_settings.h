@@ -26,7 +26,7 @@ struct MatcherSettings {
   double locate_distance_m = 1.5;  ///< point to map point, in the first iterations of a rough start
   double locate_max_step_m = 1.5;  ///< furthest that a rough start is corrected by
   double locate_max_step_rad = 0.35;
-  double locate_min_inlier_share = 0.8;  ///< of the matched points, within 10 cm of their plane
+  double locate_min_inlier_share = 0.8;   ///< of the matched points, within 10 cm of their plane
   double locate_max_blocked_share = 0.2;  ///< of the rays that pass through a surface of the map
   int threads = 2;
 };
