@@ -54,7 +54,6 @@ struct MapMatch {
   double overlap = 0;            ///< matched over tried, 0..1
   double residual_rms_m = 0;     ///< of the inliers
   double residual_median_m = 0;  ///< of the absolute residuals of the matched
-  double spectrum_score = 0;     ///< D_e of the paper, normalised; large is degenerate
   int iterations = 0;
 
   bool accepted() const { return refusal == MatchRefusal::kNone; }
