@@ -37,9 +37,12 @@ struct ChainSolver::Impl {
   std::size_t capacity = 0;  // blocks that L and A have room for
   std::size_t begin = 0;  // the oldest block's place among them: dropping a block only moves this
   std::size_t count = 0;
-  std::vector<double> b;    // right-hand side, by place
-  std::vector<double> z;    // L z = b, kept from one solution to the next
-  std::size_t z_valid = 0;  // places before this one hold a valid z
+  std::vector<double> b;  // right-hand side, by place
+  // Kept from one solution to the next, for places before z_valid: L z = b, and with them
+  //   delta(k) = y(k) - G(k) delta(k+1),  y = L(k,k)^-T D^-1 z,  G = (L(k+1,k) L(k,k)^-1)^T,
+  // so that back-substitution is one product a block.
+  std::vector<double> z, y, g;
+  std::size_t z_valid = 0;
 
   Impl() {
     cholmod_start(&common);
@@ -74,6 +77,7 @@ struct ChainSolver::Impl {
   void cutBefore(std::size_t place);
   bool pivotsPositive(std::size_t place) const;
   void forward(std::size_t place);
+  void prepareBackward(std::size_t place);
   StateMatrix factorOfBlock(std::size_t place) const;    // L(k, k), unit lower triangular
   StateVector pivotsOfBlock(std::size_t place) const;    // D(k)
   StateMatrix couplingOfBlock(std::size_t place) const;  // L(k+1, k)
@@ -95,6 +99,8 @@ void ChainSolver::Impl::allocate(std::size_t blocks) {
   capacity = blocks;
   b.assign(n, 0);
   z.assign(n, 0);
+  y.assign(n, 0);
+  g.assign(n * kN, 0);
   setPatternOfL();
   setPatternOfA();
 }
@@ -140,7 +146,7 @@ void ChainSolver::Impl::reserve(std::size_t blocks) {
     lx_old.assign(lx() + begin * kBlockEntries, lx() + (begin + count) * kBlockEntries);
     ax_old.assign(ax() + begin * kBlockEntries, ax() + (begin + count) * kBlockEntries);
   }
-  const std::vector<double> b_old = b, z_old = z;
+  const std::vector<double> b_old = b, z_old = z, y_old = y, g_old = g;
   const std::size_t begin_old = begin;
   release();
   allocate(blocks);
@@ -149,6 +155,11 @@ void ChainSolver::Impl::reserve(std::size_t blocks) {
   for (std::size_t k = 0; k < count * kN; ++k) {
     b[k] = b_old[begin_old * kN + k];
     z[k] = z_old[begin_old * kN + k];
+    y[k] = y_old[begin_old * kN + k];
+  }
+  if (!g_old.empty()) {
+    std::copy_n(g_old.begin() + static_cast<std::ptrdiff_t>(begin_old * kN * kN), count * kN * kN,
+                g.begin());
   }
   begin = 0;
   z_valid -= std::min(z_valid, begin_old);
@@ -169,6 +180,8 @@ void ChainSolver::Impl::makeRoom() {
   shift(ax(), kBlockEntries);
   shift(b.data(), kN);
   shift(z.data(), kN);
+  shift(y.data(), kN);
+  shift(g.data(), kN * kN);
   z_valid -= std::min(z_valid, begin);
   begin = 0;
 }
@@ -250,14 +263,16 @@ std::size_t ChainSolver::factorizeFrom(std::size_t first) {
   return s.count;
 }
 
-// L z = b from `place` on.
+// L z = b from `place` on, and what back-substitution needs of it.
 void ChainSolver::Impl::forward(std::size_t place) {
-  for (std::size_t q = std::max(place, begin); q < begin + count; ++q) {
-    Segment zq(z.data() + q * kN, kDim);
-    zq = ConstSegment(b.data() + q * kN, kDim);
+  const std::size_t end = begin + count;
+  if (place >= end) return;
+  for (std::size_t q = std::max(place, begin); q < end; ++q) {
+    Eigen::Map<StateVector> zq(z.data() + q * kN);
+    zq = Eigen::Map<const StateVector>(b.data() + q * kN);
     if (q > begin) {
       for (std::size_t c = 0; c < kN; ++c) {
-        zq -= z[(q - 1) * kN + c] * ConstSegment(column(q - 1, c) + (kN - c), kDim);
+        zq -= z[(q - 1) * kN + c] * Eigen::Map<const StateVector>(column(q - 1, c) + (kN - c));
       }
     }
     for (std::size_t c = 0; c + 1 < kN; ++c) {
@@ -265,26 +280,40 @@ void ChainSolver::Impl::forward(std::size_t place) {
       zq.tail(below) -= zq[static_cast<Eigen::Index>(c)] * ConstSegment(column(q, c) + 1, below);
     }
   }
-  z_valid = begin + count;
+  // The block before the first new row is coupled to it.
+  for (std::size_t q = std::max(place, begin + 1) - 1; q < end; ++q) prepareBackward(q);
+  z_valid = end;
+}
+
+void ChainSolver::Impl::prepareBackward(std::size_t place) {
+  Eigen::Map<StateVector> yq(y.data() + place * kN);
+  for (std::size_t c = kN; c-- > 0;) {
+    const double* l = column(place, c);
+    const auto row = static_cast<Eigen::Index>(c), below = static_cast<Eigen::Index>(kN - c - 1);
+    yq[row] = z[place * kN + c] / l[0] - ConstSegment(l + 1, below).dot(yq.tail(below));
+  }
+  if (place + 1 == begin + count) return;
+  // G^T L(k,k) = L(k+1,k), from the last column to the first.
+  StateMatrix w;
+  for (std::size_t c = kN; c-- > 0;) {
+    const double* l = column(place, c);
+    StateVector sum = Eigen::Map<const StateVector>(l + (kN - c));
+    for (std::size_t d = c + 1; d < kN; ++d) sum -= l[d - c] * w.col(static_cast<Eigen::Index>(d));
+    w.col(static_cast<Eigen::Index>(c)) = sum;
+  }
+  Eigen::Map<StateMatrix>(g.data() + place * kN * kN) = w.transpose();
 }
 
 void ChainSolver::solve(std::vector<StateVector>& delta) {
   Impl& s = *impl_;
   s.forward(s.z_valid);
   delta.resize(s.count);
-  std::vector<double>& z = s.z;
-  double x[2 * kN] = {};  // this block, and the one after it: contiguous, as the columns of L are
   for (std::size_t k = s.count; k-- > 0;) {
     const std::size_t place = s.begin + k;
-    std::copy(x, x + kN, x + kN);
-    const bool last = k + 1 == s.count;
-    for (std::size_t c = kN; c-- > 0;) {
-      const double* column = s.column(place, c);
-      const auto entries = static_cast<Eigen::Index>((last ? kN : 2 * kN) - c - 1);
-      x[c] = z[place * kN + c] / column[0] -
-             ConstSegment(column + 1, entries).dot(ConstSegment(x + c + 1, entries));
-    }
-    delta[k] = Eigen::Map<const StateVector>(x);
+    delta[k] = Eigen::Map<const StateVector>(s.y.data() + place * kN);
+    if (k + 1 == s.count) continue;
+    const Eigen::Map<const StateMatrix> g(s.g.data() + place * kN * kN);
+    for (int c = 0; c < kDim; ++c) delta[k] -= delta[k + 1][c] * g.col(c);
   }
 }
 

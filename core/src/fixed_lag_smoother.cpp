@@ -32,8 +32,8 @@ UpdateSummary FixedLagSmoother::add(ChainNode node) {
   const ChainNode* previous = nodes_.empty() ? nullptr : &nodes_.back();
   ChainBlock block = linearize(previous, node);
   const std::uint64_t dropped_before = repairs_.factors_dropped;
-  if (!block.allFinite()) {
-    dropNonFiniteFactors(node, previous);
+  if (!block.usable()) {
+    dropUnusableFactors(node, previous);
     block = linearize(previous, node);
   }
   nodes_.push_back(std::move(node));
@@ -56,7 +56,7 @@ UpdateSummary FixedLagSmoother::addFactor(NodeId id, NodeFactor factor) {
   const std::size_t k = id - first_id_;
   nodes_[k].node_factors.push_back(std::move(factor));
   ChainBlock block = linearize(k == 0 ? nullptr : &nodes_[k - 1], nodes_[k]);
-  if (!block.allFinite()) {
+  if (!block.usable()) {
     nodes_[k].node_factors.pop_back();
     ++repairs_.factors_dropped;
     return refused;
@@ -168,20 +168,20 @@ void FixedLagSmoother::reanchor(UpdateSummary& summary) {
   solver_.factorizeFrom(0);
 }
 
-void FixedLagSmoother::dropNonFiniteFactors(ChainNode& node, const ChainNode* previous) {
+void FixedLagSmoother::dropUnusableFactors(ChainNode& node, const ChainNode* previous) {
   ChainNode probe;
   probe.t_ns = node.t_ns;
   probe.state = node.state;
   std::erase_if(node.node_factors, [&](const NodeFactor& factor) {
     probe.node_factors.assign(1, factor);
-    const bool bad = !linearize(nullptr, probe).allFinite();
+    const bool bad = !linearize(nullptr, probe).usable();
     repairs_.factors_dropped += bad ? 1 : 0;
     return bad;
   });
   probe.node_factors.clear();
   std::erase_if(node.edge_factors, [&](const EdgeFactor& factor) {
     probe.edge_factors.assign(1, factor);
-    const bool bad = previous && !linearizeEdge(*previous, probe).allFinite();
+    const bool bad = previous && !linearizeEdge(*previous, probe).usable();
     repairs_.factors_dropped += bad ? 1 : 0;
     return bad;
   });
@@ -206,7 +206,13 @@ void FixedLagSmoother::marginalizeOldest() {
   delta_.erase(delta_.begin());
   ++first_id_;
   solver_.dropFront();
-  blocks_[0] = linearize(nullptr, nodes_[0]);
+  // With the edge gone and the prior in its place, the node's own share is what it was and the
+  // elimination.
+  blocks_[0].hessian_jj += information;
+  blocks_[0].b_j += b;
+  blocks_[0].hessian_ji.setZero();
+  blocks_[0].hessian_ii.setZero();
+  blocks_[0].b_i.setZero();
   StateMatrix diagonal = blocks_[0].hessian_jj;
   StateVector b_front = blocks_[0].b_j;
   if (nodes_.size() > 1) {

@@ -131,7 +131,7 @@ void OnlineRun::measureLinearization(const ChainNode& node) {
   if (smoother_.empty()) return;
   const Stopwatch watch;
   const ChainBlock block = linearize(&previous_, node);
-  if (block.allFinite()) linearization_.push_back(watch.cpu_ms());
+  if (block.usable()) linearization_.push_back(watch.cpu_ms());
 }
 
 void OnlineRun::addLateFactors(std::size_t k) {

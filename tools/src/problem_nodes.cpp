@@ -21,7 +21,14 @@ Preintegration preintegrate(const SmootherProblem& problem, std::size_t k, const
   const auto holdUntil = [&](TimeNs t_ns) {
     const TimeNs end_ns = std::min(t_ns, node.t_ns);
     if (!held || end_ns <= held_since_ns) return;
-    p.integrate(held->acc_body, held->omega_body, secondsBetween(held_since_ns, end_ns));
+    const double dt_s = secondsBetween(held_since_ns, end_ns);
+    // The force is that in the body frame where the sample begins, and holds while the body turns
+    // away from it; a step of Preintegration has it turn with the body. So it is handed over with
+    // the mean turn of the step undone.
+    const Vec3 turn = dt_s * (held->omega_body - last.bias_gyro);
+    const Vec3 force_body =
+        so3::rightJacobianInverse(-turn) * (held->acc_body - last.bias_acc) + last.bias_acc;
+    p.integrate(force_body, held->omega_body, dt_s);
     held_since_ns = end_ns;
   };
   for (const ImuSample& sample : node.imu) {

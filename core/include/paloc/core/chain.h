@@ -42,7 +42,8 @@ struct PALOC_EXPORT ChainBlock {
   StateVector b_i = StateVector::Zero();
   double cost = 0;  ///< of the node's factors and its edge's, robust, whitened; 1
 
-  bool allFinite() const;
+  /// False if something is not finite, or surer than any measurement can be.
+  bool usable() const;
 };
 
 /// Linearizes the factors of `node` and those of its edge from `previous` (null at the first node).

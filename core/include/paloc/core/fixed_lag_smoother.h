@@ -40,8 +40,8 @@ class PALOC_EXPORT FixedLagSmoother {
   explicit FixedLagSmoother(const SmootherSettings& settings);
 
   /// Appends a node, newer than all others, with its factors. Its state is the first guess.
-  /// Factors that are not finite are dropped and counted; a node whose state or time cannot be used
-  /// is refused. Never throws for what is in the data.
+  /// Factors that are not finite, or absurdly sure, are dropped and counted; a node whose state or
+  /// time cannot be used is refused. Never throws for what is in the data.
   UpdateSummary add(ChainNode node);
 
   /// Adds a factor to a node that is still in the window (data that came late, but within the lag).
@@ -59,6 +59,10 @@ class PALOC_EXPORT FixedLagSmoother {
   /// The nodes that left the window since the last call, as they were when they left, oldest first.
   std::vector<NodeEstimate> takeLeft();
 
+  /// The window as it is factorized: all nodes with their factors, those that marginalization left
+  /// among them, at their linearization points; oldest first. For checks.
+  std::vector<ChainNode> linearizedWindow() const { return {nodes_.begin(), nodes_.end()}; }
+
   const RepairCounts& repairs() const { return repairs_; }
 
  private:
@@ -70,7 +74,7 @@ class PALOC_EXPORT FixedLagSmoother {
   void assembleFrom(std::size_t first);
   bool factorize(std::size_t first, UpdateSummary& summary);
   void reanchor(UpdateSummary& summary);
-  void dropNonFiniteFactors(ChainNode& node, const ChainNode* previous);
+  void dropUnusableFactors(ChainNode& node, const ChainNode* previous);
   void marginalizeOldest();
 
   SmootherSettings settings_;

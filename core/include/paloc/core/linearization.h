@@ -25,18 +25,39 @@ struct EdgeLinearization {
       Eigen::Matrix<double, M, tangent::kDim>::Zero();
 };
 
+namespace detail {
+template <class Derived, class Block>
+void multiplyFromLeft(const Eigen::MatrixBase<Derived>& matrix, Block&& block) {
+  block = matrix.lazyProduct(block).eval();
+}
+template <class Derived, class Block>
+void multiplyFromLeft(const Eigen::DiagonalBase<Derived>& diagonal, Block&& block) {
+  block = diagonal * block;
+}
+
+// By blocks of three columns: most of a factor's Jacobian is zero.
+template <class Whitening, int M>
+void whitenColumns(const Whitening& sqrt_information,
+                   Eigen::Matrix<double, M, tangent::kDim>& jacobian) {
+  for (int offset = 0; offset < tangent::kDim; offset += 3) {
+    auto block = jacobian.template middleCols<3>(offset);
+    if (!block.isZero(0)) multiplyFromLeft(sqrt_information, block);
+  }
+}
+}  // namespace detail
+
 /// Whitens a factor's residual and Jacobian by the square root W of its information (W^T W).
 template <int M, class Whitening>
 void whiten(const Whitening& sqrt_information, NodeLinearization<M>& l) {
   l.residual = (sqrt_information * l.residual).eval();
-  l.jacobian = (sqrt_information * l.jacobian).eval();
+  detail::whitenColumns(sqrt_information, l.jacobian);
 }
 
 template <int M, class Whitening>
 void whiten(const Whitening& sqrt_information, EdgeLinearization<M>& l) {
   l.residual = (sqrt_information * l.residual).eval();
-  l.jacobian_i = (sqrt_information * l.jacobian_i).eval();
-  l.jacobian_j = (sqrt_information * l.jacobian_j).eval();
+  detail::whitenColumns(sqrt_information, l.jacobian_i);
+  detail::whitenColumns(sqrt_information, l.jacobian_j);
 }
 
 }  // namespace paloc

@@ -37,8 +37,8 @@ class PALOC_EXPORT Preintegration {
   Mat3 dR_dbias_gyro = Mat3::Zero();  ///< delta_R(b + d) = delta_R Exp(dR_dbias_gyro d)
 
  private:
-  void propagateCovariance(const Mat3& p_by_rotation, const Mat3& v_by_rotation,
-                           const Mat3& step_R, const Mat3& step_Jr, double dt);
+  void propagateCovariance(const Mat3& p_by_rotation, const Mat3& v_by_rotation, const Mat3& step_R,
+                           const Mat3& step_Jr, double dt);
 
   double acc_noise_density_sq_, gyro_noise_density_sq_;
 };
