@@ -169,7 +169,9 @@ void ChainSolver::Impl::reserve(std::size_t blocks) {
 // reached. The pattern is the same at every place, so only values move.
 void ChainSolver::Impl::makeRoom() {
   if (begin + count < capacity) return;
-  if (count * 2 > capacity) {
+  // Moving costs as much as several updates: with room for four windows, one update in three
+  // windows pays for it.
+  if (count * 4 > capacity) {
     reserve(capacity * 2);
     return;
   }

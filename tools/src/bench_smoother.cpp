@@ -12,21 +12,23 @@
 namespace paloc {
 namespace {
 
-double now_ms(clockid_t clock) {
+TimeNs now(clockid_t clock) {
   timespec t{};
   clock_gettime(clock, &t);
-  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
+  return kNsPerSecond * static_cast<TimeNs>(t.tv_sec) + static_cast<TimeNs>(t.tv_nsec);
 }
 
 /// Time passed since it was made, by the wall and on the processor.
 class Stopwatch {
  public:
-  double wall_ms() const { return now_ms(CLOCK_MONOTONIC) - wall_begin_; }
-  double cpu_ms() const { return now_ms(CLOCK_THREAD_CPUTIME_ID) - cpu_begin_; }
+  double wall_ms() const { return 1e-6 * static_cast<double>(now(CLOCK_MONOTONIC) - wall_begin_); }
+  double cpu_ms() const {
+    return 1e-6 * static_cast<double>(now(CLOCK_THREAD_CPUTIME_ID) - cpu_begin_);
+  }
 
  private:
-  double wall_begin_ = now_ms(CLOCK_MONOTONIC);
-  double cpu_begin_ = now_ms(CLOCK_THREAD_CPUTIME_ID);
+  TimeNs wall_begin_ = now(CLOCK_MONOTONIC);
+  TimeNs cpu_begin_ = now(CLOCK_THREAD_CPUTIME_ID);
 };
 
 TimeStatistics timeStatistics(std::vector<double> times_ms) {
