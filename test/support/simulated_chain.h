@@ -16,18 +16,19 @@ class SimulatedChain {
     truth.bias_gyro = random.vector(0.005);
   }
 
-  /// What is known before the first measurement.
+  /// What is known before the first measurement: the true pose, and that biases are small.
   ChainNode first() {
-    ChainNode node;
-    StateVector sigma;
-    sigma << Vec3::Constant(0.05), Vec3::Constant(0.01), Vec3::Constant(0.1), Vec3::Constant(0.05),
-        Vec3::Constant(0.005), Vec3::Constant(1e-3);
-    node.state = truth;
-    node.state.bias_acc.setZero();
-    node.state.bias_gyro.setZero();
-    node.node_factors.push_back(PriorFactor::fromSigmas(node.state, sigma));
-    t_ns_ = node.t_ns;
-    return node;
+    State mean = truth;
+    mean.bias_acc.setZero();
+    mean.bias_gyro.setZero();
+    return firstWith(mean);
+  }
+
+  /// The same, but its errors are drawn from the prior that it has.
+  ChainNode firstDrawn() {
+    StateVector error;
+    for (int k = 0; k < tangent::kDim; ++k) error[k] = random.normal(priorSigma()[k]);
+    return firstWith(boxplus(truth, error));
   }
 
   /// The next node with IMU, bias and gravity factors, predicted from `last`, the estimate before.
@@ -48,6 +49,8 @@ class SimulatedChain {
     }
     before = truth;
     truth = ImuFactor(exact, kGravity_mps2).predict(truth);
+    truth.bias_acc += random.vector(noise.accelerometer_bias_walk_mps3_sqrthz * std::sqrt(kDt_s));
+    truth.bias_gyro += random.vector(noise.gyroscope_bias_walk_radps2_sqrthz * std::sqrt(kDt_s));
     t_ns_ += nsFromSeconds(kDt_s);
     const ImuFactor imu(measured, kGravity_mps2);
     ChainNode node;
@@ -80,6 +83,20 @@ class SimulatedChain {
   State truth, before;  ///< at the node made last, and at the one before it
 
  private:
+  static StateVector priorSigma() {
+    StateVector sigma;
+    sigma << Vec3::Constant(0.05), Vec3::Constant(0.01), Vec3::Constant(0.1), Vec3::Constant(0.05),
+        Vec3::Constant(0.005), Vec3::Constant(1e-3);
+    return sigma;
+  }
+  ChainNode firstWith(const State& mean) {
+    ChainNode node;
+    node.state = mean;
+    node.node_factors.push_back(PriorFactor::fromSigmas(mean, priorSigma()));
+    t_ns_ = node.t_ns;
+    return node;
+  }
+
   Vec3 acc_true_ = Vec3::Zero(), omega_true_ = Vec3::Zero();
   TimeNs t_ns_ = 0;
 };
