@@ -71,5 +71,6 @@ std::vector<Setting> imuSettings();
 std::vector<Setting> mapSettings();
 std::vector<Setting> matcherSettings();
 std::vector<Setting> smootherSettings();
+std::vector<Setting> stillnessSettings();
 
 }  // namespace paloc

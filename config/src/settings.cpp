@@ -12,7 +12,7 @@ namespace {
 std::vector<Setting> buildTable() {
   std::vector<Setting> table;
   for (auto section : {frontendSettings, imuSettings, mapSettings, matcherSettings,
-                       smootherSettings, estimatorSettings}) {
+                       smootherSettings, stillnessSettings, estimatorSettings}) {
     for (Setting& row : section()) table.push_back(std::move(row));
   }
   return table;

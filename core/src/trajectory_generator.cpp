@@ -35,7 +35,10 @@ State predictWithoutImu(const State& last, const OdometryFrame& frame, const Pos
 
 TrajectoryGenerator::TrajectoryGenerator(const EstimatorSettings& settings,
                                          std::shared_ptr<MapMatcher> matcher)
-    : settings_(settings), matcher_(std::move(matcher)), smoother_(settings.smoother) {}
+    : settings_(settings),
+      matcher_(std::move(matcher)),
+      stillness_(settings.stillness),
+      smoother_(settings.smoother) {}
 
 TrajectoryGenerator::~TrajectoryGenerator() = default;
 
@@ -52,8 +55,11 @@ void TrajectoryGenerator::add(const FrontendEvent& event) {
 }
 
 void TrajectoryGenerator::addImu(const ImuSample& sample) {
-  if (!imu_.add(sample))
+  if (imu_.add(sample)) {
+    stillness_.addImu(sample);
+  } else {
     unused_.add("ImuSample", "estimator", "not newer than the last, or not finite");
+  }
 }
 
 void TrajectoryGenerator::addFrame(const OdometryFrame& frame) {
@@ -61,6 +67,7 @@ void TrajectoryGenerator::addFrame(const OdometryFrame& frame) {
     unused_.add("OdometryFrame", "estimator", "not newer than the last");
     return;
   }
+  stillness_.addOdometry(frame.t_ns, fromMrpt(frame.T_odom_body), frame.continues);
   if (history_.empty()) {
     tryStart(frame);
   } else {
@@ -131,6 +138,8 @@ void TrajectoryGenerator::advance(const OdometryFrame& frame) {
   row.guess_step_rotation = step.tail<3>().norm();
   addEdgeFactors(frame, imu, dt_s, node, row);
   if (row.match.accepted()) addMapFactor(row.match, dt_s, node);
+  row.at_rest = stillness_.update(frame.t_ns, last.state.bias_gyro);
+  if (row.at_rest) addStationaryFactors(last.t_ns, diagnostics_.back().at_rest, node);
   append(std::move(node), row);
 }
 
@@ -185,6 +194,21 @@ void TrajectoryGenerator::addMapFactor(const MapMatch& match, double since_last_
                             settings_.map_robust_width * std::sqrt(share)};
   node.node_factors.push_back(
       MapFactor(fromMrpt(match.T_map_body), match.information * share, kernel));
+}
+
+// ZV and NG hold at every node at rest, NM where the node before rested as well.
+void TrajectoryGenerator::addStationaryFactors(TimeNs since_ns, bool rested_before,
+                                               ChainNode& node) const {
+  const StillnessSettings& s = settings_.stillness;
+  node.node_factors.push_back(ZeroVelocityFactor(s.zero_velocity_sigma_mps));
+  if (const auto force = stillness_.meanForce(since_ns)) {
+    node.node_factors.push_back(
+        GravityFactor(*force, s.gravity_sigma_direction_rad, s.gravity_sigma_magnitude));
+  }
+  if (rested_before) {
+    node.edge_factors.push_back(
+        NoMotionFactor(s.no_motion_sigma_position_m, s.no_motion_sigma_rotation_rad));
+  }
 }
 
 void TrajectoryGenerator::append(ChainNode node, FrameDiagnostics row) {

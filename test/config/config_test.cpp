@@ -232,8 +232,9 @@ TEST(SettingsTable, HasARowForEveryField) {
   EXPECT_EQ(rowsOf("map"), test::fieldCount<MapSettings>());
   EXPECT_EQ(rowsOf("matcher"), test::fieldCount<MatcherSettings>());
   EXPECT_EQ(rowsOf("smoother"), test::fieldCount<SmootherSettings>());
-  // Two of its fields are the sections imu and smoother.
-  EXPECT_EQ(rowsOf("estimator"), test::fieldCount<EstimatorSettings>() - 2);
+  EXPECT_EQ(rowsOf("stillness"), test::fieldCount<StillnessSettings>());
+  // Three of its fields are the sections imu, smoother and stillness.
+  EXPECT_EQ(rowsOf("estimator"), test::fieldCount<EstimatorSettings>() - 3);
 }
 
 TEST(SettingsTable, EachRowIsItsOwnFieldAndSaysWhatItIs) {

@@ -2,6 +2,7 @@
 
 #include "paloc/core/imu_noise.h"
 #include "paloc/core/smoother_settings.h"
+#include "paloc/core/stillness_settings.h"
 
 namespace paloc {
 
@@ -9,6 +10,7 @@ namespace paloc {
 struct EstimatorSettings {
   ImuNoise imu;
   SmootherSettings smoother;
+  StillnessSettings stillness;
 
   double gravity_mps2 = 9.80665;  ///< local strength of gravity
   double max_imu_gap_s = 0.05;    ///< samples further apart are not integrated over

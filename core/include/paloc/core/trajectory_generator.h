@@ -10,6 +10,7 @@
 #include "paloc/core/map_matcher.h"
 #include "paloc/core/odometry_frame.h"
 #include "paloc/core/stage_timer.h"
+#include "paloc/core/stillness_detector.h"
 #include "paloc/core/trajectory.h"
 #include "paloc/core/unused_counts.h"
 
@@ -56,6 +57,7 @@ class PALOC_EXPORT TrajectoryGenerator {
   void addEdgeFactors(const OdometryFrame& frame, const std::optional<ImuFactor>& imu, double dt_s,
                       ChainNode& node, FrameDiagnostics& row) const;
   void addMapFactor(const MapMatch& match, double since_last_s, ChainNode& node) const;
+  void addStationaryFactors(TimeNs since_ns, bool rested_before, ChainNode& node) const;
   void append(ChainNode node, FrameDiagnostics row);
   void collectLeft();
   TrajectoryPoint pointOf(const NodeEstimate& estimate, std::size_t history_index) const;
@@ -66,6 +68,7 @@ class PALOC_EXPORT TrajectoryGenerator {
   std::shared_ptr<MapMatcher> matcher_;
   StageTimer* timer_ = nullptr;
   ImuBuffer imu_;
+  StillnessDetector stillness_;
   FixedLagSmoother smoother_;
   std::optional<Pose> T_map_body_initial_;
   std::optional<Pose> T_odom_body_first_;  // of the first frame, which the initial pose belongs to
