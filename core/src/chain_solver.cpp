@@ -31,7 +31,7 @@ using ConstSegment = Eigen::Map<const Eigen::VectorXd>;
 }  // namespace
 
 struct ChainSolver::Impl {
-  cholmod_common common;
+  cholmod_common common{};
   cholmod_factor* L = nullptr;
   cholmod_sparse* A = nullptr;
   std::size_t capacity = 0;  // blocks that L and A have room for
@@ -58,9 +58,11 @@ struct ChainSolver::Impl {
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
+  // NOLINTBEGIN(readability-make-member-function-const): they hand out what is to be changed
   double* lx() { return static_cast<double*>(L->x); }
-  const double* lx() const { return static_cast<const double*>(L->x); }
   double* ax() { return static_cast<double*>(A->x); }
+  // NOLINTEND(readability-make-member-function-const)
+  const double* lx() const { return static_cast<const double*>(L->x); }
   const double* column(std::size_t place, std::size_t c) const {
     return lx() + place * kBlockEntries + columnStart(c);
   }
@@ -71,7 +73,7 @@ struct ChainSolver::Impl {
   }
   void reserve(std::size_t blocks);
   void allocate(std::size_t blocks);
-  void setPatternOfL();
+  void setPatternOfL() const;
   void setPatternOfA();
   void makeRoom();
   void cutBefore(std::size_t place);
@@ -105,7 +107,7 @@ void ChainSolver::Impl::allocate(std::size_t blocks) {
   setPatternOfA();
 }
 
-void ChainSolver::Impl::setPatternOfL() {
+void ChainSolver::Impl::setPatternOfL() const {
   const int* p = static_cast<const int*>(L->p);
   int* row = static_cast<int*>(L->i);
   for (std::size_t j = 0; j < capacity * kN; ++j) {

@@ -42,7 +42,7 @@ Preintegration preintegrate(const SmootherProblem& problem, std::size_t k, const
 
 void addMapFactors(const SmootherProblem& problem, std::size_t k, ChainNode& node) {
   for (const SmootherProblem::MapMeasurement& map : problem.nodes[k].map) {
-    if (map.node == k) node.node_factors.push_back(MapFactor(map.T_map_body, map.information));
+    if (map.node == k) node.node_factors.emplace_back(MapFactor(map.T_map_body, map.information));
   }
 }
 
@@ -58,7 +58,7 @@ ChainNode firstProblemNode(const SmootherProblem& problem) {
   sigma << Vec6::Constant(std::numeric_limits<double>::infinity()),
       Vec3::Constant(kPriorSigmaVelocity_mps), Vec3::Constant(kPriorSigmaBiasAcc_mps2),
       Vec3::Constant(kPriorSigmaBiasGyro_radps), Vec3::Constant(kPriorSigmaGravity);
-  node.node_factors.push_back(PriorFactor::fromSigmas(node.state, sigma));
+  node.node_factors.emplace_back(PriorFactor::fromSigmas(node.state, sigma));
   addMapFactors(problem, 0, node);
   return node;
 }
@@ -74,19 +74,19 @@ ChainNode nextProblemNode(const SmootherProblem& problem, std::size_t k, const S
   if (imu.dt_s > 0) {
     const ImuFactor factor(imu, kGravity_mps2);
     node.state = factor.predict(last);
-    node.edge_factors.push_back(factor);
+    node.edge_factors.emplace_back(factor);
   } else {
     // Nothing but the odometry, if there is any, tells of the motion.
     node.state = last;
     if (!source.odometry.empty()) {
       node.state.T_map_body = last.T_map_body * source.odometry[0].T_i_j;
     }
-    node.edge_factors.push_back(VelocityFactor(dt_s, 0.5));
+    node.edge_factors.emplace_back(VelocityFactor(dt_s, 0.5));
   }
-  node.edge_factors.push_back(BiasWalkFactor(problem.noise, dt_s));
-  node.edge_factors.push_back(ConstantGravityFactor(kGravityWalk_sqrthz, dt_s));
+  node.edge_factors.emplace_back(BiasWalkFactor(problem.noise, dt_s));
+  node.edge_factors.emplace_back(ConstantGravityFactor(kGravityWalk_sqrthz, dt_s));
   for (const SmootherProblem::OdometryMeasurement& odometry : source.odometry) {
-    node.edge_factors.push_back(LidarOdometryFactor(odometry.T_i_j, odometry.covariance));
+    node.edge_factors.emplace_back(LidarOdometryFactor(odometry.T_i_j, odometry.covariance));
   }
   addMapFactors(problem, k, node);
   return node;
