@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <optional>
+#include <vector>
 
 #include "paloc/core/imu_sample.h"
 #include "paloc/core/preintegration.h"
@@ -24,6 +25,9 @@ class PALOC_EXPORT ImuBuffer {
 
   /// Forgets samples that no interval starting at `t_ns` or later needs.
   void forgetBefore(TimeNs t_ns);
+
+  /// The stamps of the samples from `start_ns` to `end_ns`, both included.
+  std::vector<TimeNs> stamps(TimeNs start_ns, TimeNs end_ns) const;
 
   bool empty() const { return samples_.empty(); }
   std::size_t size() const { return samples_.size(); }
