@@ -21,7 +21,7 @@ cmake --build "$work/build" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 
 "$work/prefix/bin/paloc" --version
 # The preset by its name alone: found in the prefix, not in the build folder.
-(cd / && "$work/prefix/bin/paloc" config dump --config vlp-16 | grep -q "max_range_m: 100$")
+(cd / && "$work/prefix/bin/paloc" config dump --config vlp-16 | grep "max_range_m: 100$" >/dev/null)  # not -q: it would break the pipe
 if grep -rlI -e "$build" "$work/prefix"; then
   echo "these installed files name the build folder"
   exit 1
