@@ -4,14 +4,14 @@
 #include <Eigen/Core>
 #include <algorithm>
 
-#include "chain_factor.h"
+#include "chain_cholesky.h"
 
 namespace paloc {
 namespace {
 
 using tangent::kDim;
 
-constexpr std::size_t kN = ChainFactor::kN;
+constexpr std::size_t kN = ChainCholesky::kN;
 
 using ConstSegment = Eigen::Map<const Eigen::VectorXd>;
 
@@ -26,7 +26,7 @@ void moveToFront(std::vector<double>& values, std::size_t from, std::size_t bloc
 }  // namespace
 
 struct ChainSolver::Impl {
-  ChainFactor factor;
+  ChainCholesky factor;
   std::vector<double> b;  // right-hand side, by place
   // Kept from one solution to the next, for places before z_valid: L z = b, and with them
   //   delta(k) = y(k) - G(k) delta(k+1),  y = L(k,k)^-T D^-1 z,  G = (L(k+1,k) L(k,k)^-1)^T,

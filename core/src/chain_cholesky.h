@@ -12,14 +12,14 @@ namespace paloc {
 /// for more blocks than the window has. A block's place in the arrays is its number in the window
 /// plus begin(); the pattern is the same at every place, so that dropping the oldest block moves
 /// only begin().
-class ChainFactor {
+class ChainCholesky {
  public:
   static constexpr std::size_t kN = tangent::kDim;
 
-  ChainFactor();
-  ~ChainFactor();
-  ChainFactor(const ChainFactor&) = delete;
-  ChainFactor& operator=(const ChainFactor&) = delete;
+  ChainCholesky();
+  ~ChainCholesky();
+  ChainCholesky(const ChainCholesky&) = delete;
+  ChainCholesky& operator=(const ChainCholesky&) = delete;
 
   std::size_t begin() const { return begin_; }
   std::size_t end() const { return begin_ + count_; }

@@ -1,4 +1,4 @@
-#include "chain_factor.h"
+#include "chain_cholesky.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -13,7 +13,7 @@ namespace {
 
 using tangent::kDim;
 
-constexpr std::size_t kN = ChainFactor::kN;
+constexpr std::size_t kN = ChainCholesky::kN;
 constexpr std::size_t kFirstCapacity = 64;
 // Entries of one block's columns of L: the lower triangle, and all rows of the next block. The
 // upper triangle of H by columns has as many.
@@ -30,7 +30,7 @@ using ConstSegment = Eigen::Map<const Eigen::VectorXd>;
 
 }  // namespace
 
-ChainFactor::ChainFactor() {
+ChainCholesky::ChainCholesky() {
   cholmod_start(&common_);
   common_.print = 0;
   common_.supernodal = CHOLMOD_SIMPLICIAL;
@@ -38,17 +38,17 @@ ChainFactor::ChainFactor() {
   allocate(kFirstCapacity);
 }
 
-ChainFactor::~ChainFactor() {
+ChainCholesky::~ChainCholesky() {
   release();
   cholmod_finish(&common_);
 }
 
-void ChainFactor::release() {
+void ChainCholesky::release() {
   cholmod_free_factor(&L_, &common_);
   cholmod_free_sparse(&A_, &common_);
 }
 
-void ChainFactor::allocate(std::size_t blocks) {
+void ChainCholesky::allocate(std::size_t blocks) {
   const std::size_t n = (blocks + 1) * kN;  // one block more, so that every column has full length
   L_ = cholmod_allocate_factor(n, &common_);
   A_ = cholmod_allocate_sparse(n, n, (blocks + 1) * kBlockEntries, 1, 0, 1, CHOLMOD_REAL, &common_);
@@ -63,7 +63,7 @@ void ChainFactor::allocate(std::size_t blocks) {
   setPatternOfA();
 }
 
-void ChainFactor::setPatternOfL() const {
+void ChainCholesky::setPatternOfL() const {
   const int* p = static_cast<const int*>(L_->p);
   int* row = static_cast<int*>(L_->i);
   for (std::size_t j = 0; j < capacity_ * kN; ++j) {
@@ -78,7 +78,7 @@ void ChainFactor::setPatternOfL() const {
   }
 }
 
-void ChainFactor::setPatternOfA() {
+void ChainCholesky::setPatternOfA() {
   int* p = static_cast<int*>(A_->p);
   int* row = static_cast<int*>(A_->i);
   int* entries = static_cast<int*>(A_->nz);
@@ -97,7 +97,7 @@ void ChainFactor::setPatternOfA() {
   p[A_->ncol] = static_cast<int>(A_->nzmax);
 }
 
-void ChainFactor::grow(std::size_t blocks) {
+void ChainCholesky::grow(std::size_t blocks) {
   const auto window = [this](double* values) {
     return std::vector<double>(values + begin_ * kBlockEntries, values + end() * kBlockEntries);
   };
@@ -109,7 +109,7 @@ void ChainFactor::grow(std::size_t blocks) {
   begin_ = 0;
 }
 
-void ChainFactor::append() {
+void ChainCholesky::append() {
   if (end() == capacity_) {
     // Moving costs as much as several updates: with room for four windows, one update in three
     // windows pays for it.
@@ -125,8 +125,8 @@ void ChainFactor::append() {
   ++count_;
 }
 
-void ChainFactor::set(std::size_t place, const StateMatrix& diagonal,
-                      const StateMatrix& off_diagonal) {
+void ChainCholesky::set(std::size_t place, const StateMatrix& diagonal,
+                        const StateMatrix& off_diagonal) {
   for (std::size_t c = 0; c < kN; ++c) {
     const auto row = static_cast<Eigen::Index>(c);
     double* values = ax() + place * kBlockEntries + upperColumnStart(c);
@@ -139,7 +139,7 @@ void ChainFactor::set(std::size_t place, const StateMatrix& diagonal,
 // Brings the lengths of the columns in line with the window: rows and columns from `place` on
 // become those of the identity, as cholmod_rowfac wants them, and H's oldest block has none above
 // it.
-void ChainFactor::cutBefore(std::size_t place) {
+void ChainCholesky::cutBefore(std::size_t place) {
   int* l_entries = static_cast<int*>(L_->nz);
   int* a_start = static_cast<int*>(A_->p);
   int* a_entries = static_cast<int*>(A_->nz);
@@ -156,7 +156,7 @@ void ChainFactor::cutBefore(std::size_t place) {
   }
 }
 
-bool ChainFactor::pivotsPositive(std::size_t place) const {
+bool ChainCholesky::pivotsPositive(std::size_t place) const {
   for (std::size_t c = 0; c < kN; ++c) {
     const double d = column(place, c)[0];
     if (!(d > 0) || !std::isfinite(d)) return false;
@@ -164,7 +164,7 @@ bool ChainFactor::pivotsPositive(std::size_t place) const {
   return true;
 }
 
-std::size_t ChainFactor::factorizeFrom(std::size_t place) {
+std::size_t ChainCholesky::factorizeFrom(std::size_t place) {
   cutBefore(place);
   double beta[2] = {0, 0};
   if (!cholmod_rowfac(A_, nullptr, beta, place * kN, end() * kN, L_, &common_) &&
@@ -178,11 +178,11 @@ std::size_t ChainFactor::factorizeFrom(std::size_t place) {
   return end();
 }
 
-const double* ChainFactor::column(std::size_t place, std::size_t c) const {
+const double* ChainCholesky::column(std::size_t place, std::size_t c) const {
   return static_cast<const double*>(L_->x) + place * kBlockEntries + columnStart(c);
 }
 
-StateMatrix ChainFactor::diagonalBlock(std::size_t place) const {
+StateMatrix ChainCholesky::diagonalBlock(std::size_t place) const {
   StateMatrix l = StateMatrix::Identity();
   for (std::size_t c = 0; c + 1 < kN; ++c) {
     const auto below = static_cast<Eigen::Index>(kN - c - 1);
@@ -191,13 +191,13 @@ StateMatrix ChainFactor::diagonalBlock(std::size_t place) const {
   return l;
 }
 
-StateVector ChainFactor::pivots(std::size_t place) const {
+StateVector ChainCholesky::pivots(std::size_t place) const {
   StateVector d;
   for (std::size_t c = 0; c < kN; ++c) d[static_cast<Eigen::Index>(c)] = column(place, c)[0];
   return d;
 }
 
-StateMatrix ChainFactor::couplingBlock(std::size_t place) const {
+StateMatrix ChainCholesky::couplingBlock(std::size_t place) const {
   StateMatrix l;
   for (std::size_t c = 0; c < kN; ++c) {
     l.col(static_cast<Eigen::Index>(c)) = ConstSegment(column(place, c) + (kN - c), kDim);
@@ -205,7 +205,7 @@ StateMatrix ChainFactor::couplingBlock(std::size_t place) const {
   return l;
 }
 
-StateMatrix ChainFactor::inverseOfBlock(std::size_t place) const {
+StateMatrix ChainCholesky::inverseOfBlock(std::size_t place) const {
   const StateMatrix l_inverse =
       diagonalBlock(place).triangularView<Eigen::UnitLower>().solve(StateMatrix::Identity());
   return l_inverse.transpose() * pivots(place).cwiseInverse().asDiagonal() * l_inverse;
