@@ -6,6 +6,8 @@ std::string toString(MatchRefusal refusal) {
   switch (refusal) {
     case MatchRefusal::kNone:
       return "accepted";
+    case MatchRefusal::kNotTried:
+      return "not tried";
     case MatchRefusal::kNoScan:
       return "no scan";
     case MatchRefusal::kTooFewPoints:

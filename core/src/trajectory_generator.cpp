@@ -86,7 +86,7 @@ void TrajectoryGenerator::tryStart(const OdometryFrame& frame) {
   }
   FrameDiagnostics row;
   row.t_ns = row.scan_start_ns = frame.t_ns;
-  row.match.refusal = MatchRefusal::kNoScan;
+  row.match.refusal = frame.scan ? MatchRefusal::kNotTried : MatchRefusal::kNoScan;
   if (frame.scan) row.scan_start_ns = frame.scan->start_ns;
   if (T_map_body_initial_ && frame.scan && start_attempts_ < settings_.max_start_attempts) {
     ++start_attempts_;
@@ -267,6 +267,11 @@ std::vector<TrajectoryPoint> TrajectoryGenerator::takeOnline() {
 
 const FrameDiagnostics* TrajectoryGenerator::lastFrame() const {
   return diagnostics_.empty() ? nullptr : &diagnostics_.back();
+}
+
+std::optional<NodeEstimate> TrajectoryGenerator::newest() const {
+  if (history_.empty()) return std::nullopt;
+  return smoother_.newest();
 }
 
 std::vector<TrajectoryPoint> TrajectoryGenerator::smoothAll() {

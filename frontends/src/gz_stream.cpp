@@ -13,6 +13,9 @@ GzReadArchive::GzReadArchive(const std::filesystem::path& file) {
   constexpr unsigned kBufferBytes = 1 << 18;
   std::error_code error;
   if (!std::filesystem::exists(file, error)) throw IoError(file.string() + ": no such file");
+  if (std::filesystem::is_directory(file, error)) {
+    throw IoError(file.string() + ": is a folder, not a rawlog");
+  }
   if (!std::filesystem::is_regular_file(file, error)) {
     throw IoError(file.string() + ": is not a regular file");
   }

@@ -152,6 +152,7 @@ void RecordedOdometry::giveOutFrame(LidarFrame& frame) {
   placeInOdometry(result);
   result.scan = makeScan(frame);
   ++counts_.frames;
+  counts_.with_scan += result.scan != nullptr;
   events_.emplace_back(std::move(result));
   imu_samples_.forgetBefore(frame.stamp_ns);
   if (settings_.odometry_file.empty()) track_.forgetBefore(std::min(frame.stamp_ns, end));
@@ -221,9 +222,33 @@ void RecordedOdometry::note(const std::string& sentence) {
 
 std::vector<std::string> RecordedOdometry::takeNotes() { return std::exchange(notes_, {}); }
 
+std::vector<std::string> RecordedOdometry::problems() const {
+  std::vector<std::string> sentences;
+  for (const std::string& sentence :
+       {lidar_.problem(), imu_.problem(), odometry_.problem(), whyNoScan()}) {
+    if (!sentence.empty()) sentences.push_back(sentence);
+  }
+  return sentences;
+}
+
+std::string RecordedOdometry::whyNoScan() const {
+  if (counts_.with_scan > 0) return {};
+  if (!lidar_.chosen()) {
+    return settings_.lidar_label.empty() ? "the recording has no LiDAR scan" : "";
+  }
+  std::string reason;  // that of most scans; points are counted in rows of their own
+  std::uint64_t most = 0;
+  for (const UnusedCounts::Row& row : unused_.rows()) {
+    const bool of_points = row.reason.starts_with("points ");
+    if (!lidar_.isChosen(row.class_name, row.label) || of_points || row.count <= most) continue;
+    most = row.count;
+    reason = row.reason;
+  }
+  return "none of the LiDAR's scans could be used" + (reason.empty() ? "" : " (" + reason + ")");
+}
+
 void RecordedOdometry::noteAtEnd() {
   for (const StreamChoice* choice : {&lidar_, &imu_, &odometry_}) note(choice->remark());
-  if (!lidar_.chosen() && settings_.lidar_label.empty()) note("the recording has no LiDAR scan");
   const bool imu = !imu_samples_.empty(), odometry = !track_.empty();
   if (!imu && !odometry) {
     note(

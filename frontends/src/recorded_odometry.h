@@ -31,6 +31,7 @@ class RecordedOdometry : public OdometryFrontend {
   std::optional<FrontendEvent> next() override;
   const UnusedCounts& unused() const override { return unused_; }
   std::vector<std::string> takeNotes() override;
+  std::vector<std::string> problems() const override;
 
  private:
   struct FramePose {
@@ -58,6 +59,7 @@ class RecordedOdometry : public OdometryFrontend {
 
   void note(const std::string& sentence);
   void noteAtEnd();
+  std::string whyNoScan() const;
 
   FrontendSettings settings_;
   StreamChoice lidar_, imu_, odometry_;
@@ -78,7 +80,8 @@ class RecordedOdometry : public OdometryFrontend {
   std::vector<std::string> notes_;
   std::set<std::string> said_;
   struct {
-    int frames = 0, without_pose = 0, extrapolated = 0, coasted = 0, by_odometry_alone = 0;
+    int frames = 0, with_scan = 0, without_pose = 0, extrapolated = 0, coasted = 0,
+        by_odometry_alone = 0;
   } counts_;
 };
 

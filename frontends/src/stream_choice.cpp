@@ -11,20 +11,24 @@ bool StreamChoice::takes(const std::string& class_name, const std::string& label
   return chosen_ == stream;
 }
 
-std::string StreamChoice::remark() const {
+std::string StreamChoice::listed() const {
   std::string there;
   for (const auto& [class_name, label] : seen_) {
     there += (there.empty() ? "'" : ", '") + label + "' (" + class_name + ")";
   }
-  if (!wanted_.empty() && !chosen_) {
-    return "there is no " + kind_ + " with the label '" + wanted_ + "'; " +
-           (there.empty() ? "there is none at all" : "there are: " + there);
-  }
-  if (wanted_.empty() && seen_.size() > 1) {
-    return "there are several " + kind_ +
-           " streams, of which the first is used, as none was chosen: " + there;
-  }
-  return {};
+  return there;
+}
+
+std::string StreamChoice::remark() const {
+  if (!wanted_.empty() || seen_.size() < 2) return {};
+  return "there are several " + kind_ +
+         " streams, of which the first is used, as none was chosen: " + listed();
+}
+
+std::string StreamChoice::problem() const {
+  if (wanted_.empty() || chosen_) return {};
+  return "there is no " + kind_ + " with the label '" + wanted_ + "'; " +
+         (seen_.empty() ? "there is none at all" : "there are: " + listed());
 }
 
 std::string StampOrder::check(TimeNs t_ns) {

@@ -21,11 +21,17 @@ class StreamChoice {
   bool takes(const std::string& class_name, const std::string& label);
 
   bool chosen() const { return chosen_.has_value(); }
-  /// A sentence if there are others that were not asked about, or if the label asked for is not
-  /// there; else empty.
+  bool isChosen(const std::string& class_name, const std::string& label) const {
+    return chosen_ == std::pair(class_name, label);
+  }
+  /// A sentence if there are others, and none was chosen; else empty.
   std::string remark() const;
+  /// A sentence if the label asked for is not there; else empty.
+  std::string problem() const;
 
  private:
+  std::string listed() const;
+
   std::string kind_, wanted_;
   std::optional<std::pair<std::string, std::string>> chosen_;
   std::vector<std::pair<std::string, std::string>> seen_;  // class and label, by first appearance

@@ -19,7 +19,7 @@ InputFile::InputFile(const std::filesystem::path& path) : name_(path.string()) {
   if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) {
     ::close(descriptor_);
     descriptor_ = -1;
-    fail("is not a regular file");
+    fail(S_ISDIR(status.st_mode) ? "is a folder, not a point cloud" : "is not a regular file");
   }
   size_ = static_cast<std::uint64_t>(status.st_size);
 }

@@ -104,6 +104,7 @@ std::shared_ptr<const PriorMap> PriorMap::build(const PointCloud& cloud,
   auto data = std::make_unique<Data>();
   data->origin = cloud.origin;
   data->statistics.points_read = cloud.size();
+  data->statistics.nonfinite = cloud.nonfinite_dropped;
   const Stopwatch sorting;
   data->points = thinAlongMortonCurve(cloud, settings.voxel_m, arena, name);
   data->statistics.sort_s = sorting.seconds();

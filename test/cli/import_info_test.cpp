@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "run_program.h"
-#include "temp_folder.h"
+#include "temp_dir.h"
 
 namespace paloc {
 namespace {
@@ -18,7 +18,7 @@ std::string scan(const std::string& fields) {
 }
 
 TEST(ImportAndInfo, TellTheTruthByTheirExitCodes) {
-  const TempFolder folder;
+  const test::TempDir folder;
   folder.write("scans/0.pcd", scan("t"));
   folder.write("scans/1.pcd", scan("t"));
   const std::string times = folder.write("times.txt", "0.pcd 10.0\n1.pcd 10.1\n").string();
@@ -45,7 +45,7 @@ TEST(ImportAndInfo, TellTheTruthByTheirExitCodes) {
   EXPECT_EQ(sensors[0]["class"], "CObservationLidarScan");
   EXPECT_EQ(sensors[0]["points"]["max"], 2);
 
-  const std::string bytes = readBytes(log);
+  const std::string bytes = test::readFile(log);
   folder.write("cut.rawlog", bytes + bytes.substr(0, bytes.size() / 2));
   const auto cut = runPaloc({"info", (folder / "cut.rawlog").string()});
   EXPECT_EQ(cut.exit_code, 1);

@@ -13,7 +13,7 @@
 #include "paloc/core/errors.h"
 #include "paloc/frontends/CObservationLidarScan.h"
 #include "paloc/frontends/mrpt_time.h"
-#include "temp_folder.h"
+#include "temp_dir.h"
 
 namespace paloc {
 namespace {
@@ -81,11 +81,11 @@ ReadBack readAll(const std::filesystem::path& file) {
 }
 
 TEST(Rawlog, ScansComeBackAsTheyWere) {
-  const TempFolder folder;
+  const test::TempDir folder;
   for (const auto kind : {Compression::kNone, Compression::kGzip}) {
     const auto file = folder / "a.rawlog";
     writeScans(file, 3, 300'000, kind);  // more points than one piece of a column
-    EXPECT_EQ(readBytes(file).starts_with("\x1f\x8b"), kind == Compression::kGzip);
+    EXPECT_EQ(test::readFile(file).starts_with("\x1f\x8b"), kind == Compression::kGzip);
     RawlogStream stream(file);
     for (int i = 0; i < 3; ++i) {
       const auto s = std::dynamic_pointer_cast<CObservationLidarScan>(stream.next());
@@ -101,7 +101,7 @@ TEST(Rawlog, ScansComeBackAsTheyWere) {
 
 TEST(Rawlog, ReadsSensoryFramesAndPassesOverTheRest) {
   using namespace mrpt::obs;
-  const TempFolder folder;
+  const test::TempDir folder;
   {
     mrpt::io::CFileGZOutputStream file((folder / "sf.rawlog").string());
     auto archive = mrpt::serialization::archiveFrom(file);
@@ -115,10 +115,10 @@ TEST(Rawlog, ReadsSensoryFramesAndPassesOverTheRest) {
 }
 
 TEST(Rawlog, TruncationKeepsWhatCameBefore) {
-  const TempFolder folder;
+  const test::TempDir folder;
   for (const auto kind : {Compression::kNone, Compression::kGzip}) {
     writeScans(folder / "whole.rawlog", 4, 200, kind);
-    const std::string whole = readBytes(folder / "whole.rawlog");
+    const std::string whole = test::readFile(folder / "whole.rawlog");
     ASSERT_EQ(readAll(folder / "whole.rawlog").observations, 4U);
     const std::size_t one = whole.size() / 4;
     for (std::size_t length = 2; length < whole.size(); length += 37) {  // 2: gzip's signature
@@ -136,9 +136,9 @@ TEST(Rawlog, TruncationKeepsWhatCameBefore) {
 }
 
 TEST(Rawlog, DamagedGzipIsNoticed) {
-  const TempFolder folder;
+  const test::TempDir folder;
   writeScans(folder / "whole.rawlog", 4, 200, Compression::kGzip);
-  const std::string whole = readBytes(folder / "whole.rawlog");
+  const std::string whole = test::readFile(folder / "whole.rawlog");
   std::mt19937_64 rng(1);
   for (int run = 0; run < 200; ++run) {
     std::string damaged = whole;
@@ -151,9 +151,9 @@ TEST(Rawlog, DamagedGzipIsNoticed) {
 }
 
 TEST(Rawlog, DamagedPlainFilesNeverCrash) {
-  const TempFolder folder;
+  const test::TempDir folder;
   writeScans(folder / "whole.rawlog", 3, 20, Compression::kNone);
-  const std::string whole = readBytes(folder / "whole.rawlog");
+  const std::string whole = test::readFile(folder / "whole.rawlog");
   for (std::size_t at = 0; at < whole.size() / 3; ++at) {  // lengths become absurd here and there
     std::string damaged = whole;
     damaged[at] = '\x7f';
@@ -162,7 +162,7 @@ TEST(Rawlog, DamagedPlainFilesNeverCrash) {
 }
 
 TEST(Rawlog, SaysWhatItCannotRead) {
-  const TempFolder folder;
+  const test::TempDir folder;
   EXPECT_THROW(RawlogStream(folder / "missing.rawlog"), IoError);
   EXPECT_THROW(RawlogStream{folder.path()}, IoError);
   EXPECT_EQ(readAll(folder.write("empty.rawlog", "")).end, End::kClean);
@@ -170,7 +170,7 @@ TEST(Rawlog, SaysWhatItCannotRead) {
             std::string::npos);
 
   writeScans(folder / "a.rawlog", 2, 5, Compression::kNone);
-  std::string foreign = readBytes(folder / "a.rawlog");
+  std::string foreign = test::readFile(folder / "a.rawlog");
   const std::size_t second = foreign.size() / 2;
   foreign.replace(foreign.find("CObservationLidarScan", second), 21, "CObservationTidarScan");
   const ReadBack back = readAll(folder.write("foreign.rawlog", foreign));
@@ -181,7 +181,7 @@ TEST(Rawlog, SaysWhatItCannotRead) {
 }
 
 TEST(RawlogWriter, SaysWhenTheDiskIsFull) {
-  const TempFolder folder;
+  const test::TempDir folder;
   EXPECT_THROW(RawlogWriter(folder / "no" / "a.rawlog"), IoError);
   for (const auto kind : {Compression::kNone, Compression::kGzip}) {
     for (const std::size_t points : {std::size_t{5}, std::size_t{500'000}}) {

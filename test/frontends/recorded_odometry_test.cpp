@@ -216,10 +216,10 @@ TEST(RecordedOdometry, WrongLabelsListThoseThatExist) {
   const Output output = run(walk(3).inOrder(), settings);
   EXPECT_TRUE(output.events.empty());
   EXPECT_TRUE(
-      output.noted("there is no LiDAR with the label 'velodyne'; there are: 'lidar' "
-                   "(CObservationLidarScan)"));
-  EXPECT_TRUE(output.noted("there is no IMU with the label 'xsens'; there are: 'imu'"));
-  EXPECT_TRUE(output.noted("there is no odometry with the label 'wheel'; there are: 'odom'"));
+      output.hasProblem("there is no LiDAR with the label 'velodyne'; there are: 'lidar' "
+                        "(CObservationLidarScan)"));
+  EXPECT_TRUE(output.hasProblem("there is no IMU with the label 'xsens'; there are: 'imu'"));
+  EXPECT_TRUE(output.hasProblem("there is no odometry with the label 'wheel'; there are: 'odom'"));
   EXPECT_EQ(output.count("lidar", "another LiDAR is used"), 3U);
 }
 

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "paloc/core/errors.h"
-#include "temp_folder.h"
+#include "temp_dir.h"
 
 namespace paloc {
 namespace {
@@ -30,7 +30,7 @@ std::string refusal(const std::filesystem::path& file) {
   return {};
 }
 
-void expectRefused(const TempFolder& folder, const std::string& name, std::string_view bytes,
+void expectRefused(const test::TempDir& folder, const std::string& name, std::string_view bytes,
                    const std::string& expected) {
   const auto file = folder.write(name, bytes);
   const std::string sentence = refusal(file);
@@ -47,7 +47,7 @@ std::string plyHeader(const std::string& format, int count, const std::string& p
 const std::string kXyz = "property float x\nproperty float y\nproperty float z\n";
 
 TEST(Ply, ReadsAscii) {
-  const TempFolder folder;
+  const test::TempDir folder;
   const auto file = folder.write(
       "a.ply", plyHeader("ascii", 3, kXyz + "property uchar ring\nproperty double time\n") +
                    "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
@@ -66,7 +66,7 @@ TEST(Ply, ReadsAscii) {
 }
 
 TEST(Ply, ReadsBinaryOfEitherOrderWithAnyTypes) {
-  const TempFolder folder;
+  const test::TempDir folder;
   for (const bool big : {false, true}) {
     std::string bytes =
         "ply\r\nformat " + std::string(big ? "binary_big_endian" : "binary_little_endian") +
@@ -104,7 +104,7 @@ TEST(Ply, ReadsBinaryOfEitherOrderWithAnyTypes) {
 }
 
 TEST(Ply, WhatIsSavedComesBack) {
-  const TempFolder folder;
+  const test::TempDir folder;
   std::mt19937_64 rng(1);
   std::uniform_real_distribution<float> uniform(-50, 50);
   PointCloud cloud;
@@ -131,7 +131,7 @@ TEST(Ply, WhatIsSavedComesBack) {
 }
 
 TEST(Ply, RefusesWhatIsBroken) {
-  const TempFolder folder;
+  const test::TempDir folder;
   const std::string end = "end_header\n";
   const std::string le = "binary_little_endian";
   const std::string point(12, '\0');
@@ -167,7 +167,7 @@ TEST(Ply, RefusesWhatIsBroken) {
 }
 
 TEST(Ply, SurvivesTruncationAndDamage) {
-  const TempFolder folder;
+  const test::TempDir folder;
   std::string whole = plyHeader("binary_little_endian", 20, kXyz + "property list uchar int i\n");
   whole.replace(whole.find("property list"), 0, "element face 2\n");
   whole += "end_header\n";
@@ -194,7 +194,7 @@ std::string pcdHeader(const std::string& fields, const std::string& sizes, const
 }
 
 TEST(Pcd, ReadsAscii) {
-  const TempFolder folder;
+  const test::TempDir folder;
   const auto file = folder.write(
       "a.pcd", pcdHeader("x y z hist t", "4 4 4 4 8", "F F F F U", "1 1 1 3 1", 2, "ascii") +
                    "1 2 3 0 0 0 1645002364537699938\n-1 -2 nan 0 0 0 5\n\n");
@@ -247,7 +247,7 @@ std::string pcdFile(int points, const std::string& data) {
 }
 
 TEST(Pcd, ReadsBinary) {
-  const TempFolder folder;
+  const test::TempDir folder;
   const std::string bytes = pcdFile(1000, "binary") + pcdData(1000, false);
   expectPcdData(loadCloud(folder.write("a.pcd", bytes)), 1000);
   expectRefused(folder, "short.pcd", bytes.substr(0, bytes.size() - 1), "room for 999");
@@ -294,7 +294,7 @@ std::string packLzf(const std::string& in) {
 }
 
 TEST(Pcd, ReadsBinaryCompressed) {
-  const TempFolder folder;
+  const test::TempDir folder;
   const std::string data = pcdData(5000, true);
   const std::string packed = packLzf(data);
   ASSERT_LT(packed.size(), data.size());
@@ -319,7 +319,7 @@ TEST(Pcd, ReadsBinaryCompressed) {
 }
 
 TEST(Pcd, RefusesWhatIsBroken) {
-  const TempFolder folder;
+  const test::TempDir folder;
   const auto pcd = [](const std::string& sizes, int points, const std::string& data) {
     return pcdHeader("x y z", sizes, "F F F", "1 1 1", points, data);
   };
@@ -340,7 +340,7 @@ TEST(Pcd, RefusesWhatIsBroken) {
 }
 
 TEST(KittiBin, ReadsPointsAndRefusesOddSizes) {
-  const TempFolder folder;
+  const test::TempDir folder;
   std::string bytes;
   for (int i = 0; i < 10; ++i) {
     for (const float v : {1.0F, 2.0F, static_cast<float>(i), 0.5F}) put(bytes, v);

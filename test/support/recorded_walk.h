@@ -91,12 +91,14 @@ struct Output {
   std::vector<FrontendEvent> events;
   std::vector<OdometryFrame> frames;
   std::vector<ImuSample> imu;
-  std::vector<std::string> notes;
+  std::vector<std::string> notes, problems;
   std::vector<UnusedCounts::Row> unused;
 
-  bool noted(const std::string& part) const {
-    return std::any_of(notes.begin(), notes.end(), [&](const std::string& note) {
-      return note.find(part) != std::string::npos;
+  bool noted(const std::string& part) const { return anyHas(notes, part); }
+  bool hasProblem(const std::string& part) const { return anyHas(problems, part); }
+  static bool anyHas(const std::vector<std::string>& sentences, const std::string& part) {
+    return std::any_of(sentences.begin(), sentences.end(), [&](const std::string& sentence) {
+      return sentence.find(part) != std::string::npos;
     });
   }
   std::uint64_t count(const std::string& label, const std::string& reason) const {
@@ -125,6 +127,7 @@ inline Output run(const std::vector<CObservation::Ptr>& observations,
     if (const auto* sample = std::get_if<ImuSample>(&event)) output.imu.push_back(*sample);
   }
   output.notes = frontend->takeNotes();
+  output.problems = frontend->problems();
   output.unused = frontend->unused().rows();
   return output;
 }

@@ -35,14 +35,15 @@ void redirect(const std::string& file, int descriptor) {
   _exit(127);
 }
 
-int waitFor(pid_t child, const ProgramOptions& options) {
+int waitFor(pid_t child, const ProgramOptions& options, const TempDir& output) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
-  bool interrupted = options.interrupt_after_ms <= 0;
+  bool interrupted = options.interrupt_at.empty();
   int status = 0;
   while (waitpid(child, &status, WNOHANG) == 0) {
     const auto elapsed = Clock::now() - start;
-    if (!interrupted && elapsed >= std::chrono::milliseconds(options.interrupt_after_ms)) {
+    if (!interrupted && std::filesystem::exists(output / "err") &&
+        readFile(output / "err").find(options.interrupt_at) != std::string::npos) {
       kill(child, SIGINT);
       interrupted = true;
     }
@@ -61,7 +62,7 @@ ProgramRun runProgram(const std::string& program, const std::vector<std::string>
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("fork failed");
   if (child == 0) becomeProgram(program, arguments, options.folder, output);
-  const int status = waitFor(child, options);
+  const int status = waitFor(child, options, output);
   ProgramRun run;
   if (WIFEXITED(status)) run.exit_code = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) run.signal = WTERMSIG(status);

@@ -14,9 +14,9 @@ struct ProgramRun {
 };
 
 struct ProgramOptions {
-  std::string folder;          ///< to run in; empty: the test's own
-  int interrupt_after_ms = 0;  ///< send Ctrl-C (SIGINT) after this long; 0: never
-  int timeout_s = 120;         ///< then it is killed, which shows as signal 9
+  std::string folder;        ///< to run in; empty: the test's own
+  std::string interrupt_at;  ///< send Ctrl-C (SIGINT) once standard error holds this; empty: never
+  int timeout_s = 120;       ///< then it is killed, which shows as signal 9
 };
 
 /// Runs a program with arguments (no shell in between) and waits for it.

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace paloc::test {
 
@@ -27,6 +28,9 @@ class TempDir {
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
+  /// Writes a file (folders made as needed) and gives its path.
+  std::filesystem::path write(const std::string& name, std::string_view bytes) const;
+
  private:
   std::filesystem::path path_;
 };
@@ -37,10 +41,18 @@ inline std::string readFile(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-inline void writeFile(const std::filesystem::path& file, const std::string& bytes) {
+inline void writeFile(const std::filesystem::path& file, std::string_view bytes) {
+  std::filesystem::remove(file);  // ext4 flushes a file that is truncated and written anew
   std::ofstream out(file, std::ios::binary);
   out << bytes;
   if (!out.flush()) throw std::runtime_error("cannot write " + file.string());
+}
+
+inline std::filesystem::path TempDir::write(const std::string& name, std::string_view bytes) const {
+  const auto file = path_ / name;
+  std::filesystem::create_directories(file.parent_path());
+  writeFile(file, bytes);
+  return file;
 }
 
 }  // namespace paloc::test

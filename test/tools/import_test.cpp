@@ -14,7 +14,7 @@
 #include "paloc/tools/imu_csv.h"
 #include "paloc/tools/parse_pose.h"
 #include "paloc/tools/recording_info.h"
-#include "temp_folder.h"
+#include "temp_dir.h"
 
 namespace paloc {
 namespace {
@@ -105,7 +105,7 @@ std::vector<mrpt::obs::CObservation::Ptr> readAll(const std::filesystem::path& f
   return all;
 }
 
-ImportCloudsSettings cloudSettings(const TempFolder& folder) {
+ImportCloudsSettings cloudSettings(const test::TempDir& folder) {
   ImportCloudsSettings settings;
   settings.folder = folder / "scans";
   settings.times_file = folder / "times.txt";
@@ -115,7 +115,7 @@ ImportCloudsSettings cloudSettings(const TempFolder& folder) {
 }
 
 TEST(ImportClouds, WritesEverythingInOrderOfTimeAndCountsTheRest) {
-  const TempFolder folder;
+  const test::TempDir folder;
   for (int i = 0; i < 3; ++i) {
     folder.write("scans/" + std::to_string(i) + ".pcd",
                  asciiPcd("t ring intensity", "U U F",
@@ -171,7 +171,7 @@ TEST(ImportClouds, WritesEverythingInOrderOfTimeAndCountsTheRest) {
 }
 
 TEST(ImportClouds, ScansWithoutTimesAreDeskewedUnlessStated) {
-  const TempFolder folder;
+  const test::TempDir folder;
   folder.write("scans/0.pcd", asciiPcd("", "", {"1 0 0"}));
   folder.write("times.txt", "0.pcd 100.0\n");
   auto settings = cloudSettings(folder);
@@ -190,7 +190,7 @@ TEST(ImportClouds, ScansWithoutTimesAreDeskewedUnlessStated) {
 }
 
 TEST(ImportClouds, StockClassesHoldTheSamePoints) {
-  const TempFolder folder;
+  const test::TempDir folder;
   folder.write("scans/0.pcd", asciiPcd("t", "U", {"1 2 3 0", "4 5 6 90000000"}));
   folder.write("scans/1.pcd", asciiPcd("", "", {"1 2 3"}));
   folder.write("times.txt", "0.pcd 100.0\n1.pcd 100.1");
@@ -207,7 +207,7 @@ TEST(ImportClouds, StockClassesHoldTheSamePoints) {
 }
 
 TEST(ImportClouds, SaysWhatIsWrong) {
-  const TempFolder folder;
+  const test::TempDir folder;
   const auto settings = cloudSettings(folder);
   EXPECT_THROW(importClouds(settings, [](double) {}), IoError);  // no folder
   folder.write("scans/0.pcd", "broken");
@@ -237,7 +237,7 @@ std::string kittiPoints(const std::vector<std::array<float, 4>>& points) {
 }
 
 // A drive laid out as KITTI publishes it; the car drives east, 1 m a frame, at 49 degrees north.
-void writeDrive(const TempFolder& folder) {
+void writeDrive(const test::TempDir& folder) {
   const std::string drive = "2011_09_26/2011_09_26_drive_0001_sync/";
   folder.write("2011_09_26/calib_imu_to_velo.txt",
                "calib_time: 25-May-2012 16:47:16\nR: 1 0 0 0 1 0 0 0 1\nT: -0.8 0.3 -0.7\n");
@@ -267,7 +267,7 @@ void writeDrive(const TempFolder& folder) {
 }
 
 TEST(ImportKitti, ReadsADriveAsPublished) {
-  const TempFolder folder;
+  const test::TempDir folder;
   writeDrive(folder);
   ImportKittiSettings settings;
   settings.drive = folder / "2011_09_26" / "2011_09_26_drive_0001_sync";
@@ -304,7 +304,7 @@ TEST(ImportKitti, ReadsADriveAsPublished) {
 }
 
 TEST(Info, TellsGapsAndDamage) {
-  const TempFolder folder;
+  const test::TempDir folder;
   RawlogWriter writer(folder / "a.rawlog");
   const double steps[] = {0, 0.1, 0.1, 0.1, 0.3, 0.1, -0.05, 0.15, 0.1};
   TimeNs t = kStart;
@@ -326,7 +326,7 @@ TEST(Info, TellsGapsAndDamage) {
   EXPECT_NEAR(found.largest_gap_s, 0.3, 1e-9);
   EXPECT_NEAR(found.largest_gap_at_s, 0.3, 1e-9);
   EXPECT_EQ(found.backwards, 1U);
-  const std::string bytes = readBytes(folder / "a.rawlog");
+  const std::string bytes = test::readFile(folder / "a.rawlog");
   const auto cut = folder.write("cut.rawlog", bytes.substr(0, bytes.size() - 7));
   const RecordingInfo damaged = readRecordingInfo(cut);
   EXPECT_EQ(damaged.sensors[0].count, 8U);

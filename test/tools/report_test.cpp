@@ -171,16 +171,17 @@ TEST(Report, UnwritablePlaceIsSaid) {
 
 TEST(Verdict, TellsHowFarToTrust) {
   ReportData data = test::exampleReport();
-  Verdict verdict = verdictOf(data, summaryOf(data.result));
-  EXPECT_EQ(verdict.level, VerdictLevel::kDegraded);
+  Verdict verdict = judge(data.result, summaryOf(data.result), data.end);
+  EXPECT_EQ(verdict.code, ExitCode::kDegraded);
   EXPECT_EQ(verdict.headline, "Part of the trajectory is lost");
   for (auto& point : data.result.trajectory) point.flag = PoseFlag::kGood;
-  verdict = verdictOf(data, summaryOf(data.result));
-  EXPECT_EQ(verdict.level, VerdictLevel::kGood);
+  data.result.repairs = {};
+  verdict = judge(data.result, summaryOf(data.result), data.end);
+  EXPECT_EQ(verdict.code, ExitCode::kGood);
   EXPECT_TRUE(contains(verdict.sentence, "All 600 poses")) << verdict.sentence;
-  data.interrupted = true;
-  verdict = verdictOf(data, summaryOf(data.result));
-  EXPECT_EQ(verdict.level, VerdictLevel::kDegraded);
+  data.end.interrupted = true;
+  verdict = judge(data.result, summaryOf(data.result), data.end);
+  EXPECT_EQ(verdict.code, ExitCode::kDegraded);
   EXPECT_TRUE(contains(verdict.sentence, "stopped before the recording's end"));
 }
 

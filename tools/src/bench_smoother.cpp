@@ -1,12 +1,12 @@
 #include "paloc/tools/bench_smoother.h"
 
-#include <sys/resource.h>
 #include <time.h>
 
 #include <algorithm>
 
 #include "paloc/core/batch_smoother.h"
 #include "paloc/core/fixed_lag_smoother.h"
+#include "paloc/tools/peak_memory.h"
 #include "problem_nodes.h"
 
 namespace paloc {
@@ -202,9 +202,7 @@ BenchSmootherResult benchSmoother(const SmootherProblem& problem,
   } else {
     runBatch(problem, online, result);
   }
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  result.peak_rss_mb = static_cast<double>(usage.ru_maxrss) / 1024;
+  result.peak_rss_mb = peakRssMb();
   return result;
 }
 

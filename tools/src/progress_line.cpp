@@ -18,6 +18,11 @@ void ProgressLine::show(const std::string& text) {
   std::cerr << (terminal_ ? "\r\033[K" : "") << text << (terminal_ ? "" : "\n") << std::flush;
 }
 
+void ProgressLine::say(const std::string& text) {
+  std::cerr << (open_ ? "\r\033[K" : "") << text << '\n' << std::flush;
+  open_ = false;
+}
+
 void ProgressLine::finish() {
   if (open_) std::cerr << '\n';
   open_ = false;

@@ -4,6 +4,7 @@
 
 #include "paloc/core/errors.h"
 #include "paloc/core/mrpt_pose.h"
+#include "paloc/core/text.h"
 #include "paloc/core/trajectory_generator.h"
 #include "paloc/frontends/mrpt_time.h"
 #include "paloc/frontends/odometry_frontend.h"
@@ -11,11 +12,13 @@
 #include "paloc/map/prior_map.h"
 #include "paloc/map/scan_matcher.h"
 #include "paloc/tools/scan_map.h"
+#include "paloc/tools/trajectory_stretches.h"
 
 namespace paloc {
 namespace {
 
 constexpr std::size_t kMapSamplePoints = 200'000;
+constexpr double kShareToTrust = 0.01;  // of the recording: then the time left can be told
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -25,10 +28,7 @@ std::vector<Point3f> sampleOf(const PriorMap& map) {
   std::vector<Point3f> sample;
   const auto stride = static_cast<std::uint32_t>(map.size() / kMapSamplePoints + 1);
   for (std::uint32_t k = 0; k < map.size(); k += stride) {
-    const Point3f& p = map.point(k);
-    const Vec3 q = map.origin() + Vec3(p.x, p.y, p.z);
-    sample.push_back(
-        {static_cast<float>(q.x()), static_cast<float>(q.y()), static_cast<float>(q.z())});
+    sample.push_back(map.point(k));
   }
   return sample;
 }
@@ -45,8 +45,9 @@ class Replay {
   void makeEstimator();
   bool wanted(const mrpt::obs::CObservation& observation);
   void drainEvents();
-  void report(const ReplayObserver& observer) const;
-  void finish();
+  void report(const ReplayObserver& observer, bool new_frame);
+  void finish(const ReplayObserver& observer);
+  void noteProblems();
 
   const ReplayOptions& options_;
   RawlogStream log_;  // opened first: a missing recording is found before the map is loaded
@@ -60,6 +61,8 @@ class Replay {
   std::optional<TimeNs> first_ns_;
   TimeNs last_ns_ = 0;
   bool past_end_ = false;
+  std::chrono::steady_clock::time_point reading_since_;
+  std::uint64_t read_ = 0;  // observations
   std::uint64_t frames_ = 0;
   std::uint64_t outside_span_ = 0;
   ReplayOutcome outcome_;
@@ -70,7 +73,10 @@ void Replay::loadMap() {
   map_ = PriorMap::load(options_.map_file, config_.map);
   outcome_.prior_map_points = map_->size();
   outcome_.prior_map_planar = map_->statistics().planar;
+  outcome_.unused.add("point", options_.map_file.filename().string(), "not finite",
+                      map_->statistics().nonfinite);
   outcome_.prior_map_sample = sampleOf(*map_);
+  outcome_.prior_map_origin = map_->origin();
 }
 
 void Replay::makeEstimator() {
@@ -110,31 +116,56 @@ void Replay::drainEvents() {
   }
 }
 
-void Replay::report(const ReplayObserver& observer) const {
-  if (!observer) return;
+void Replay::report(const ReplayObserver& observer, bool new_frame) {
   ReplayProgress progress;
+  progress.notes = frontend_->takeNotes();
+  outcome_.notes.insert(outcome_.notes.end(), progress.notes.begin(), progress.notes.end());
+  if (!observer || (!new_frame && progress.notes.empty())) return;
   progress.share = log_.progress();
   progress.speed_x_realtime =
       first_ns_ ? secondsBetween(*first_ns_, last_ns_) / std::max(1e-9, secondsSince(start_)) : 0;
+  if (progress.share > kShareToTrust) {
+    progress.left_s = secondsSince(reading_since_) * (1 - progress.share) / progress.share;
+  }
   progress.frames = frames_;
   progress.last_frame = generator_->lastFrame();
   progress.started = generator_->started();
+  if (const auto newest = generator_->newest()) {
+    progress.sigma_m = positionSigmaOf(newest->covariance.topLeftCorner<6, 6>());
+  }
   observer(progress);
 }
 
-void Replay::finish() {
+void Replay::noteProblems() {
+  RunEnd& end = outcome_.end;
+  if (end.interrupted) return;  // more may have come
+  if (read_ == 0) {
+    if (end.damage.empty())
+      end.problems.push_back(options_.log_file.string() + ": holds no observation");
+  } else if (read_ == outside_span_) {
+    end.problems.push_back(text("--from and --to leave nothing of the recording: all of ", read_,
+                                " observations lie outside"));
+  } else {
+    end.problems = frontend_->problems();
+  }
+}
+
+void Replay::finish(const ReplayObserver& observer) {
   {
     StageScope stage(&stopwatch_, "frontend");
     frontend_->finish();
   }
   drainEvents();
   outcome_.result = generator_->finish();
-  outcome_.unused = frontend_->unused();
+  outcome_.unused.merge(frontend_->unused());
   outcome_.unused.merge(generator_->unused());
   outcome_.unused.add("observations", "all", "outside --from and --to", outside_span_);
-  outcome_.notes = frontend_->takeNotes();
-  if (log_.end() == RawlogStream::End::kDamaged) outcome_.damage = log_.error();
-  if (first_ns_) outcome_.recording_s = secondsBetween(*first_ns_, last_ns_) - options_.from_s;
+  report(observer, false);
+  if (log_.end() == RawlogStream::End::kDamaged) outcome_.end.damage = log_.error();
+  noteProblems();
+  if (read_ > outside_span_) {
+    outcome_.recording_s = secondsBetween(*first_ns_, last_ns_) - options_.from_s;
+  }
   {
     StageScope stage(&stopwatch_, "map_of_scans");
     outcome_.map_of_scans = scan_map_.build(outcome_.result.trajectory, options_.output_voxel_m);
@@ -146,9 +177,10 @@ void Replay::finish() {
 ReplayOutcome Replay::run(const std::atomic<bool>& interrupt, const ReplayObserver& observer) {
   loadMap();
   makeEstimator();
+  reading_since_ = std::chrono::steady_clock::now();
   while (!past_end_) {
     if (interrupt) {
-      outcome_.interrupted = true;
+      outcome_.end.interrupted = true;
       break;
     }
     mrpt::obs::CObservation::Ptr observation;
@@ -157,6 +189,7 @@ ReplayOutcome Replay::run(const std::atomic<bool>& interrupt, const ReplayObserv
       observation = log_.next();
     }
     if (!observation) break;
+    ++read_;
     if (!wanted(*observation)) continue;
     {
       StageScope stage(&stopwatch_, "frontend");
@@ -164,9 +197,9 @@ ReplayOutcome Replay::run(const std::atomic<bool>& interrupt, const ReplayObserv
     }
     const std::uint64_t frames_before = frames_;
     drainEvents();
-    if (frames_ != frames_before) report(observer);
+    report(observer, frames_ != frames_before);
   }
-  finish();
+  finish(observer);
   return std::move(outcome_);
 }
 

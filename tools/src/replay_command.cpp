@@ -2,13 +2,15 @@
 #include <csignal>
 #include <cstdio>
 #include <iostream>
-#include <numbers>
 #include <sstream>
 
 #include "paloc/core/errors.h"
+#include "paloc/core/mrpt_pose.h"
 #include "paloc/frontends/tum_file.h"
 #include "paloc/tools/commands.h"
 #include "paloc/tools/config_options.h"
+#include "paloc/tools/html_text.h"
+#include "paloc/tools/parse_pose.h"
 #include "paloc/tools/progress_line.h"
 #include "paloc/tools/replay.h"
 #include "paloc/tools/replay_summary.h"
@@ -33,41 +35,27 @@ extern "C" void onInterrupt(int) {
   std::signal(SIGINT, SIG_DFL);  // a second Ctrl-C ends the program at once
 }
 
-Pose parsePose(const std::string& text) {
-  double v[6];
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf%c", &v[0], &v[1], &v[2], &v[3], &v[4],
-                  &v[5], &rest) != 6) {
-    throw UsageError("--init-pose " + text +
-                     ": must be six numbers x,y,z,yaw,pitch,roll (m, degrees)");
-  }
-  for (const double value : v) {
-    if (!std::isfinite(value)) throw UsageError("--init-pose " + text + ": must be finite numbers");
-  }
-  const auto radians = [](double degrees) { return degrees * std::numbers::pi / 180; };
-  Pose pose;
-  pose.position = Vec3(v[0], v[1], v[2]);
-  pose.rotation = (Eigen::AngleAxisd(radians(v[3]), Vec3::UnitZ()) *
-                   Eigen::AngleAxisd(radians(v[4]), Vec3::UnitY()) *
-                   Eigen::AngleAxisd(radians(v[5]), Vec3::UnitX()))
-                      .toRotationMatrix();
-  return pose;
+std::string matchText(const MapMatch& match) {
+  if (!match.accepted()) return "no map factor: " + toString(match.refusal);
+  char buffer[100];
+  std::snprintf(buffer, sizeof buffer, "inliers %d of %d  residual %.1f mm", match.inliers,
+                match.points, 1000 * match.residual_rms_m);
+  return buffer;
 }
 
 std::string progressText(const ReplayProgress& p) {
-  char buffer[200];
-  const MapMatch* match = p.last_frame ? &p.last_frame->match : nullptr;
-  std::snprintf(buffer, sizeof buffer, "%5.1f %%  %6.1f x real time  %6llu scans  %s",
-                100 * p.share, p.speed_x_realtime, static_cast<unsigned long long>(p.frames),
-                p.started ? "" : "no start yet  ");
+  char buffer[100];
+  std::snprintf(buffer, sizeof buffer, "%3.0f %%  %.1f x real time", 100 * p.share,
+                p.speed_x_realtime);
   std::string text = buffer;
-  if (match && match->accepted()) {
-    std::snprintf(buffer, sizeof buffer, "inliers %d of %d  residual %.1f mm", match->inliers,
-                  match->points, 1000 * match->residual_rms_m);
+  if (p.left_s) {
+    std::snprintf(buffer, sizeof buffer, "  %.0f s left", *p.left_s);
     text += buffer;
-  } else if (match) {
-    text += "no map factor: " + toString(match->refusal);
   }
+  text += "  " + std::to_string(p.frames) + " scans";
+  if (!p.started) text += "  no start yet";
+  if (p.last_frame) text += "  " + matchText(p.last_frame->match);
+  if (p.sigma_m) text += "  sigma " + lengthText(*p.sigma_m);
   return text;
 }
 
@@ -103,26 +91,47 @@ class ReplayCommand : public Command {
     Config config = config_.load();
     if (threads_ > 0) config.map.threads = config.matcher.threads = threads_;
     checkConfig(config);
-    if (!init_pose_.empty()) options_.T_map_body_initial = parsePose(init_pose_);
+    if (!init_pose_.empty()) {
+      options_.T_map_body_initial = fromMrpt(parsePose(init_pose_, "--init-pose"));
+    }
     if (!init_tum_.empty()) options_.T_map_body_initial = readTum(init_tum_).front().pose;
     if (to_s_ > 0) options_.to_s = to_s_;
+    if (options_.to_s && *options_.to_s <= options_.from_s) {
+      throw UsageError("--to must be later than --from: both count from the recording's start");
+    }
     const ResultFolder folder(output_, overwrite_);
 
     std::signal(SIGINT, onInterrupt);
     ProgressLine progress;
     const ReplayOutcome outcome =
-        replay(options_, config, interrupted,
-               [&](const ReplayProgress& p) { progress.show(progressText(p)); });
+        replay(options_, config, interrupted, [&](const ReplayProgress& p) {
+          for (const std::string& note : p.notes) progress.say("note: " + note);
+          progress.show(progressText(p));
+        });
     progress.finish();
     std::signal(SIGINT, SIG_DFL);
-    writeResult(folder, options_, config, outcome, commandLine());
-    (json_ ? std::cerr : std::cout) << summaryText(outcome) << "results in       "
-                                    << folder.path().string() << " (report.html)\n";
-    if (json_) std::cout << summaryJson(outcome).dump(2) << '\n';
-    return judge(outcome).code;
+    return tell(folder, config, outcome);
   }
 
  private:
+  // What came out is told even if it cannot be written: it may have taken hours.
+  ExitCode tell(const ResultFolder& folder, const Config& config,
+                const ReplayOutcome& outcome) const {
+    std::string not_written;
+    try {
+      writeResult(folder, options_, config, outcome, commandLine());
+    } catch (const IoError& e) {
+      not_written = e.what();
+    }
+    std::ostream& table = json_ ? std::cerr : std::cout;
+    table << summaryText(outcome);
+    if (json_) std::cout << summaryJson(outcome).dump(2) << '\n';
+    if (!not_written.empty()) throw IoError(not_written);
+    table << "results in       " << folder.path().string() << " (report.html)\n";
+    if (!std::cout.flush()) throw IoError("standard output: cannot be written");
+    return verdictOf(outcome).code;
+  }
+
   // As the user would type it again.
   std::string commandLine() const {
     std::ostringstream line;

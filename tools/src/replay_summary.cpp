@@ -1,14 +1,10 @@
 #include "paloc/tools/replay_summary.h"
 
-#include <sys/resource.h>
-
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <map>
 
-#include "paloc/core/mrpt_pose.h"
-#include "paloc/tools/trajectory_csv.h"
+#include "paloc/tools/peak_memory.h"
+#include "paloc/tools/report_summary.h"
+#include "paloc/tools/verdict.h"
 
 namespace paloc {
 namespace {
@@ -20,32 +16,19 @@ std::string formatted(const char* format, Values... values) {
   return buffer;
 }
 
-std::map<std::string, std::uint64_t> countFlags(const Result& result) {
-  std::map<std::string, std::uint64_t> counts;
+nlohmann::ordered_json flagsJson(const ReportSummary& summary) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
   for (const PoseFlag flag :
        {PoseFlag::kGood, PoseFlag::kDegenerate, PoseFlag::kCoasting, PoseFlag::kLost}) {
-    counts[toString(flag)] = 0;
+    json[toString(flag)] = summary.count(flag);
   }
-  for (const TrajectoryPoint& p : result.trajectory) ++counts[toString(p.flag)];
-  return counts;
+  return json;
 }
 
-std::map<std::string, std::uint64_t> countRefusals(const Result& result) {
-  std::map<std::string, std::uint64_t> counts;
-  for (const FrameDiagnostics& d : result.diagnostics) {
-    if (!d.match.accepted()) ++counts[toString(d.match.refusal)];
-  }
-  return counts;
-}
-
-std::uint64_t countUsed(const Result& result) {
-  return static_cast<std::uint64_t>(
-      std::count_if(result.diagnostics.begin(), result.diagnostics.end(),
-                    [](const FrameDiagnostics& d) { return d.match.accepted(); }));
-}
-
-double durationOf(const std::vector<TrajectoryPoint>& trajectory) {
-  return trajectory.empty() ? 0 : secondsBetween(trajectory.front().t_ns, trajectory.back().t_ns);
+nlohmann::ordered_json refusalsJson(const ReportSummary& summary) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const auto& [reason, count] : summary.refusals) json[reason] = count;
+  return json;
 }
 
 double speedOf(const ReplayOutcome& outcome) {
@@ -84,55 +67,14 @@ std::string stagesText(const ReplayOutcome& outcome) {
 
 }  // namespace
 
-double lengthOf(const std::vector<TrajectoryPoint>& trajectory) {
-  double length = 0;
-  for (std::size_t k = 1; k < trajectory.size(); ++k) {
-    length += (fromMrpt(trajectory[k].T_map_body).position -
-               fromMrpt(trajectory[k - 1].T_map_body).position)
-                  .norm();
-  }
-  return length;
-}
-
-double peakRssMb() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;
-}
-
-ReplayVerdict judge(const ReplayOutcome& outcome) {
-  const Result& result = outcome.result;
-  if (result.trajectory.empty()) {
-    return {"no localization", ExitCode::kNoLocalization,
-            "no trajectory: " + result.no_trajectory_reason};
-  }
-  std::vector<std::string> blemishes;
-  const auto flags = countFlags(result);
-  const std::string all = std::to_string(result.trajectory.size());
-  for (const char* flag : {"degenerate", "coasting", "lost"}) {
-    if (flags.at(flag) > 0) {
-      blemishes.push_back(std::to_string(flags.at(flag)) + " of " + all + " poses are flagged " +
-                          flag);
-    }
-  }
-  if (!outcome.damage.empty()) blemishes.push_back("the recording is damaged: " + outcome.damage);
-  if (outcome.interrupted) blemishes.push_back("the replay was interrupted");
-  if (result.batch_failed)
-    blemishes.push_back("the batch smoothing failed, so the online result stands");
-  if (result.repairs.total() > 0) {
-    blemishes.push_back("the smoother made " + std::to_string(result.repairs.total()) + " repairs");
-  }
-  if (blemishes.empty()) {
-    return {"good", ExitCode::kGood, "all " + all + " poses are fixed by the map"};
-  }
-  std::string sentence;
-  for (const std::string& blemish : blemishes) sentence += (sentence.empty() ? "" : "; ") + blemish;
-  return {"degraded", ExitCode::kDegraded, sentence};
+Verdict verdictOf(const ReplayOutcome& outcome) {
+  return judge(outcome.result, summaryOf(outcome.result), outcome.end);
 }
 
 nlohmann::ordered_json summaryJson(const ReplayOutcome& outcome) {
   const Result& result = outcome.result;
-  const ReplayVerdict verdict = judge(outcome);
+  const ReportSummary summary = summaryOf(result);
+  const Verdict verdict = judge(result, summary, outcome.end);
   nlohmann::ordered_json unused = nlohmann::ordered_json::array();
   for (const UnusedCounts::Row& row : outcome.unused.rows()) {
     unused.push_back({{"class", row.class_name},
@@ -144,19 +86,20 @@ nlohmann::ordered_json summaryJson(const ReplayOutcome& outcome) {
           {"sentence", verdict.sentence},
           {"poses", result.trajectory.size()},
           {"frames_before_start", result.frames_before_start},
-          {"duration_s", durationOf(result.trajectory)},
-          {"length_m", lengthOf(result.trajectory)},
+          {"duration_s", summary.duration_s},
+          {"length_m", summary.length_m},
           {"recording_s", outcome.recording_s},
           {"wall_s", outcome.wall_s},
           {"speed_x_realtime", speedOf(outcome)},
           {"peak_rss_mb", peakRssMb()},
-          {"flags", countFlags(result)},
+          {"flags", flagsJson(summary)},
           {"map", {{"points", outcome.prior_map_points}, {"planar", outcome.prior_map_planar}}},
-          {"map_factors", {{"used", countUsed(result)}, {"refused", countRefusals(result)}}},
+          {"map_factors", {{"used", summary.map_factors_used}, {"refused", refusalsJson(summary)}}},
           {"unused", unused},
           {"notes", outcome.notes},
-          {"damage", outcome.damage},
-          {"interrupted", outcome.interrupted},
+          {"problems", outcome.end.problems},
+          {"damage", outcome.end.damage},
+          {"interrupted", outcome.end.interrupted},
           {"repairs",
            {{"damped", result.repairs.damped},
             {"factors_dropped", result.repairs.factors_dropped},
@@ -165,19 +108,19 @@ nlohmann::ordered_json summaryJson(const ReplayOutcome& outcome) {
 }
 
 std::string summaryText(const ReplayOutcome& outcome) {
-  const Result& result = outcome.result;
-  const ReplayVerdict verdict = judge(outcome);
+  const ReportSummary summary = summaryOf(outcome.result);
+  const Verdict verdict = judge(outcome.result, summary, outcome.end);
   std::string out = verdict.status + ": " + verdict.sentence + '\n';
   for (const std::string& note : outcome.notes) out += "note: " + note + '\n';
-  out += formatted("poses            %zu over %.1f s and %.1f m\n", result.trajectory.size(),
-                   durationOf(result.trajectory), lengthOf(result.trajectory));
-  out += "map factors      " + std::to_string(countUsed(result)) + " used";
-  for (const auto& [reason, count] : countRefusals(result)) {
+  out += formatted("poses            %zu over %.1f s and %.1f m\n", summary.poses,
+                   summary.duration_s, summary.length_m);
+  out += "map factors      " + std::to_string(summary.map_factors_used) + " used";
+  for (const auto& [reason, count] : summary.refusals) {
     out += ", " + std::to_string(count) + " refused (" + reason + ")";
   }
   out += '\n' + unusedText(outcome);
-  out +=
-      formatted("repairs          %llu\n", static_cast<unsigned long long>(result.repairs.total()));
+  out += formatted("repairs          %llu\n",
+                   static_cast<unsigned long long>(outcome.result.repairs.total()));
   out += formatted("speed            %.1f x real time (%.1f s for %.1f s), %.0f MB at most\n",
                    speedOf(outcome), outcome.wall_s, outcome.recording_s, peakRssMb());
   return out + stagesText(outcome);

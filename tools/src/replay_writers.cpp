@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "paloc/map/cloud_io.h"
+#include "paloc/tools/peak_memory.h"
 #include "paloc/tools/replay_summary.h"
 #include "paloc/tools/report_data.h"
 #include "paloc/tools/trajectory_csv.h"
@@ -27,13 +28,11 @@ ReportData reportOf(const ReplayOptions& options, const Config& config,
   data.name = options.log_file.stem().string();
   data.frontend = options.frontend;
   data.result = outcome.result;
-  data.interrupted = outcome.interrupted;
+  data.end = outcome.end;
   data.map_points = outcome.prior_map_sample;
+  data.map_origin = outcome.prior_map_origin;
   data.unused = outcome.unused.rows();
   data.notes = outcome.notes;
-  if (!outcome.damage.empty()) {
-    data.notes.push_back("The recording is damaged: " + outcome.damage);
-  }
   for (const StageTimes& s : outcome.stages) {
     data.stages.push_back(
         {s.name, s.calls_ms.size(), s.percentile(0.5), s.percentile(0.99), s.total_ms});

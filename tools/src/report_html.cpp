@@ -1,11 +1,7 @@
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-
-#include "paloc/core/errors.h"
 #include "paloc/tools/html_text.h"
 #include "paloc/tools/report_data.h"
 #include "paloc/tools/report_sections.h"
+#include "paloc/tools/result_folder.h"
 
 namespace paloc {
 namespace {
@@ -64,12 +60,7 @@ std::string pageOf(const ReportData& data) {
 }  // namespace
 
 void writeReport(const std::filesystem::path& file, const ReportData& data) {
-  const std::string page = pageOf(data);
-  std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  if (!out) throw IoError("cannot write the report " + file.string() + ": " + std::strerror(errno));
-  out << page;
-  out.close();
-  if (!out) throw IoError("the report " + file.string() + " could not be written completely");
+  writeTextFile(file, pageOf(data));
 }
 
 }  // namespace paloc

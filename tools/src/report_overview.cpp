@@ -14,16 +14,10 @@ struct Tone {
   const char* sign;
 };
 
-Tone toneOf(VerdictLevel level) {
-  switch (level) {
-    case VerdictLevel::kGood:
-      return {"good", "\xE2\x9C\x93"};
-    case VerdictLevel::kDegraded:
-      return {"degraded", "!"};
-    case VerdictLevel::kNone:
-      return {"none", "\xE2\x9C\x95"};
-  }
-  return {"none", "?"};
+Tone toneOf(ExitCode code) {
+  if (code == ExitCode::kGood) return {"good", "\xE2\x9C\x93"};
+  if (code == ExitCode::kDegraded) return {"degraded", "!"};
+  return {"none", "\xE2\x9C\x95"};
 }
 
 std::string figure(const std::string& name, const std::string& value, const std::string& note) {
@@ -51,8 +45,8 @@ std::string speedFigure(const ReportData& data, const ReportSummary& s) {
 }  // namespace
 
 std::string verdictSection(const ReportData& data, const ReportSummary& summary) {
-  const Verdict verdict = verdictOf(data, summary);
-  const Tone tone = toneOf(verdict.level);
+  const Verdict verdict = judge(data.result, summary, data.end);
+  const Tone tone = toneOf(verdict.code);
   std::string html = "<section class=\"verdict " + std::string(tone.css) +
                      "\" aria-labelledby=\"verdict\">\n<h2 id=\"verdict\"><span class=\"badge\" "
                      "aria-hidden=\"true\">" +

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
-
-#include "paloc/tools/html_text.h"
 
 namespace paloc {
 namespace {
@@ -66,42 +63,6 @@ void countFrames(const std::vector<FrameDiagnostics>& diagnostics, ReportSummary
                    [](const auto& a, const auto& b) { return a.second > b.second; });
 }
 
-std::string cameOut(const ReportSummary& s) {
-  return counted(s.poses, "pose", "poses") + " over " + fixedNumber(s.duration_s, 1) + " s and " +
-         shortNumber(s.length_m) + " m";
-}
-
-std::string sigmaText(const ReportSummary& s) {
-  return "one standard deviation of position along its worst direction is " +
-         lengthText(s.position_sigma_median_m) + " at the median and " +
-         lengthText(s.position_sigma_worst_m) + " at worst";
-}
-
-// "12 are coasting (no map factor near), 3 are lost"
-std::string doubts(const ReportSummary& s) {
-  struct Doubt {
-    PoseFlag flag;
-    const char* meaning;
-  };
-  std::string text;
-  for (const Doubt& doubt :
-       {Doubt{PoseFlag::kDegenerate, "degenerate (the map leaves a direction weak or open)"},
-        Doubt{PoseFlag::kCoasting, "coasting (no map factor near)"},
-        Doubt{PoseFlag::kLost, "lost (not to be used)"}}) {
-    const std::size_t n = s.count(doubt.flag);
-    if (n == 0) continue;
-    if (!text.empty()) text += ", ";
-    text += countText(n) + (n == 1 ? " is " : " are ") + doubt.meaning;
-  }
-  return text;
-}
-
-std::string degradedHeadline(const ReportSummary& s) {
-  if (s.count(PoseFlag::kLost) > 0) return "Part of the trajectory is lost";
-  if (s.count(PoseFlag::kCoasting) > 0) return "Part of the trajectory is not held by the map";
-  return "Part of the trajectory is held weakly by the map";
-}
-
 }  // namespace
 
 ReportSummary summaryOf(const Result& result) {
@@ -109,26 +70,6 @@ ReportSummary summaryOf(const Result& result) {
   countTrajectory(result.trajectory, summary);
   countFrames(result.diagnostics, summary);
   return summary;
-}
-
-Verdict verdictOf(const ReportData& data, const ReportSummary& s) {
-  if (s.poses == 0) {
-    const std::string& reason = data.result.no_trajectory_reason;
-    return {VerdictLevel::kNone, "No trajectory",
-            reason.empty() ? "No pose was found in the map." : reason};
-  }
-  const std::string interrupted =
-      data.interrupted ? " The run was stopped before the recording's end." : "";
-  if (s.count(PoseFlag::kGood) == s.poses) {
-    return {data.interrupted ? VerdictLevel::kDegraded : VerdictLevel::kGood,
-            data.interrupted ? "Stopped before the end" : "Held by the map throughout",
-            "All " + cameOut(s) + " are fixed by the map in all six directions; " + sigmaText(s) +
-                '.' + interrupted};
-  }
-  return {VerdictLevel::kDegraded, degradedHeadline(s),
-          "Of " + cameOut(s) + ", " + shareText(s.count(PoseFlag::kGood), s.poses) +
-              " are fixed by the map in all six directions; " + doubts(s) + "; " + sigmaText(s) +
-              '.' + interrupted};
 }
 
 }  // namespace paloc

@@ -28,8 +28,10 @@ std::vector<FlagStretch> flagStretches(const std::vector<TrajectoryPoint>& traje
   return stretches;
 }
 
-double positionSigma(const TrajectoryPoint& point) {
-  return largestSigma(point.covariance.topLeftCorner<3, 3>());
+double positionSigma(const TrajectoryPoint& point) { return positionSigmaOf(point.covariance); }
+
+double positionSigmaOf(const Mat6& pose_covariance) {
+  return largestSigma(pose_covariance.topLeftCorner<3, 3>());
 }
 
 double rotationSigma(const TrajectoryPoint& point) {

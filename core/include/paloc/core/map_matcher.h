@@ -25,6 +25,7 @@ struct MatchDirection {
 /// Why a scan gave no map factor.
 enum class MatchRefusal {
   kNone,
+  kNotTried,  ///< there was a scan, but nothing to start from
   kNoScan,
   kTooFewPoints,
   kOutsideMap,

@@ -36,6 +36,8 @@ class PALOC_EXPORT TrajectoryGenerator {
   std::vector<TrajectoryPoint> takeOnline();
   /// What happened at the last frame; null before the first.
   const FrameDiagnostics* lastFrame() const;
+  /// The smoother's estimate at the last frame that it took; none before the start.
+  std::optional<NodeEstimate> newest() const;
   bool started() const { return !history_.empty(); }
   const UnusedCounts& unused() const { return unused_; }
 

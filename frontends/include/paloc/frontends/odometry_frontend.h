@@ -46,6 +46,9 @@ class PALOC_EXPORT OdometryFrontend {
   virtual const UnusedCounts& unused() const = 0;
   /// Sentences for the user, each said once: how point times were read, what looks wrong.
   virtual std::vector<std::string> takeNotes() = 0;
+  /// Known after finish(): what keeps the result from being what was asked for, a sentence each (a
+  /// stream that was asked for by its label is not there; no scan could be used).
+  virtual std::vector<std::string> problems() const { return {}; }
 };
 
 }  // namespace paloc

@@ -32,6 +32,7 @@ class PALOC_EXPORT PriorMap {
   /// What the map is made of, for reports.
   struct Statistics {
     std::size_t points_read = 0;                   ///< before thinning
+    std::size_t nonfinite = 0;                     ///< points of the file left out for that
     std::size_t points = 0;                        ///< after
     std::size_t planar = 0;                        ///< of these, with a plane
     Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< bounding box in the map frame (m)

@@ -12,6 +12,8 @@ class ProgressLine {
   ProgressLine();
   /// Shows `text`, unless it was updated a moment ago.
   void show(const std::string& text);
+  /// Shows a line that stays, above this one.
+  void say(const std::string& text);
   /// Ends the line, so that other output starts on a fresh one.
   void finish();
 

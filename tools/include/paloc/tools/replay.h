@@ -13,6 +13,7 @@
 #include "paloc/core/unused_counts.h"
 #include "paloc/map/point_cloud.h"
 #include "paloc/tools/stage_stopwatch.h"
+#include "paloc/tools/verdict.h"
 
 namespace paloc {
 
@@ -32,8 +33,11 @@ struct ReplayProgress {
   double share = 0;             ///< of the recording's bytes, 0..1
   double speed_x_realtime = 0;  ///< so far
   std::uint64_t frames = 0;
+  std::optional<double> left_s;  ///< that it may still take, as far as can be told
   const FrameDiagnostics* last_frame = nullptr;
-  bool started = false;  ///< the first pose has been found
+  bool started = false;            ///< the first pose has been found
+  std::optional<double> sigma_m;   ///< of the newest position, along its worst direction
+  std::vector<std::string> notes;  ///< sentences that came up since the last call
 };
 
 /// What came out of a replay.
@@ -41,10 +45,10 @@ struct ReplayOutcome {
   Result result;
   UnusedCounts unused;
   std::vector<std::string> notes;  ///< sentences for the user, in the order they came up
-  std::string damage;              ///< how the recording ended early; empty if it did not
-  bool interrupted = false;
+  RunEnd end;
   PointCloud map_of_scans;
-  std::vector<Point3f> prior_map_sample;  ///< map frame (m), for the report's picture
+  std::vector<Point3f> prior_map_sample;  ///< relative to its origin (m), for the report's picture
+  Vec3 prior_map_origin = Vec3::Zero();   ///< in the map frame (m)
   std::size_t prior_map_points = 0;
   std::size_t prior_map_planar = 0;
   std::vector<StageTimes> stages;
@@ -52,7 +56,7 @@ struct ReplayOutcome {
   double wall_s = 0;       ///< from opening the files to the final trajectory
 };
 
-/// Called now and then with the state of things.
+/// Called after each scan, and whenever there is something to say.
 using ReplayObserver = std::function<void(const ReplayProgress&)>;
 
 /// Reads a recording and a prior map and makes the trajectory. Stops early, keeping what there is,

@@ -10,6 +10,7 @@
 #include "paloc/core/trajectory.h"
 #include "paloc/core/types.h"
 #include "paloc/core/unused_counts.h"
+#include "paloc/tools/verdict.h"
 
 namespace paloc {
 
@@ -38,7 +39,7 @@ struct ReportData {
   std::string frontend;  ///< "recorded"
   std::string created;   ///< when, as text to show; may be empty
   Result result;
-  bool interrupted = false;  ///< the run was stopped by the user before the recording's end
+  RunEnd end;
 
   /// Points of the prior map, about 200,000 of them: the pictures' background. In the map frame
   /// (m), relative to `map_origin`, as in PointCloud.

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "paloc/core/trajectory.h"
-#include "paloc/tools/report_data.h"
 #include "paloc/tools/trajectory_stretches.h"
 
 namespace paloc {
@@ -32,16 +31,5 @@ struct ReportSummary {
 };
 
 ReportSummary summaryOf(const Result& result);
-
-enum class VerdictLevel { kGood, kDegraded, kNone };
-
-/// What came out and how far to trust it.
-struct Verdict {
-  VerdictLevel level = VerdictLevel::kNone;
-  std::string headline;  ///< a few words ("Fixed by the map throughout")
-  std::string sentence;  ///< plain text
-};
-
-Verdict verdictOf(const ReportData& data, const ReportSummary& summary);
 
 }  // namespace paloc

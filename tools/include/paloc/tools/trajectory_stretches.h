@@ -23,6 +23,7 @@ std::vector<FlagStretch> flagStretches(const std::vector<TrajectoryPoint>& traje
 
 /// The standard deviation of position along its worst direction (m).
 double positionSigma(const TrajectoryPoint& point);
+double positionSigmaOf(const Mat6& pose_covariance);
 
 /// The same of rotation (rad).
 double rotationSigma(const TrajectoryPoint& point);

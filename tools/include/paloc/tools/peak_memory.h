@@ -1,0 +1,8 @@
+#pragma once
+
+namespace paloc {
+
+/// Largest resident memory of this process so far (MB).
+double peakRssMb();
+
+}  // namespace paloc
