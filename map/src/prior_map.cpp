@@ -10,14 +10,13 @@
 #include "map_thinning.h"
 #include "paloc/core/errors.h"
 #include "paloc/map/cloud_io.h"
-#include "parallel_chunks.h"
+#include "plane_store.h"
 
 namespace paloc {
 namespace {
 
 constexpr std::size_t kMinPoints = 100;
 constexpr std::size_t kMinPlanes = 20;
-constexpr std::size_t kPlaneChunk = 1024;
 constexpr std::size_t kLeafPoints = 10;
 
 class Stopwatch {
@@ -35,44 +34,16 @@ class Stopwatch {
 struct PriorMap::Data {
   Vec3 origin = Vec3::Zero();
   std::vector<Point3f> points;
-  std::vector<MapPlane> planes;
   PointAdaptor adaptor{points};
   std::unique_ptr<KdTree> tree;
+  std::unique_ptr<PlaneStore> planes;
   Statistics statistics;
 };
 
 namespace {
 
-std::vector<MapPlane> fitPlanes(const std::vector<Point3f>& points, const KdTree& tree,
-                                const MapSettings& settings, tbb::task_arena& arena) {
-  const auto neighbours = static_cast<std::size_t>(std::max(settings.plane_neighbours, 3));
-  const PlaneFitLimits limits{.max_thickness_m = settings.plane_max_thickness_m};
-  const float max_sq =
-      static_cast<float>(settings.plane_max_radius_m * settings.plane_max_radius_m);
-  std::vector<MapPlane> planes(points.size());
-  forEachChunk(arena, points.size(), kPlaneChunk,
-               [&](std::size_t, std::size_t begin, std::size_t end) {
-                 std::vector<std::uint32_t> indices(neighbours);
-                 std::vector<float> distances(neighbours), scratch(neighbours);
-                 std::vector<Point3f> relative(neighbours);
-                 for (std::size_t i = begin; i < end; ++i) {
-                   const Point3f& p = points[i];
-                   const std::size_t found =
-                       tree.knnSearch(&p.x, neighbours, indices.data(), distances.data());
-                   std::size_t count = 0;
-                   while (count < found && distances[count] <= max_sq) {
-                     const Point3f& q = points[indices[count]];
-                     relative[count++] = {q.x - p.x, q.y - p.y, q.z - p.z};
-                   }
-                   const float radius = std::sqrt(distances[count > 0 ? count - 1 : 0]);
-                   planes[i] = fitPlane({relative.data(), count}, radius, limits, scratch);
-                 }
-               });
-  return planes;
-}
-
 void describe(PriorMap::Statistics& statistics, const Vec3& origin,
-              const std::vector<Point3f>& points, const std::vector<MapPlane>& planes) {
+              const std::vector<Point3f>& points) {
   Eigen::Vector3f low(points[0].x, points[0].y, points[0].z), high = low;
   for (const Point3f& p : points) {
     const Eigen::Vector3f v(p.x, p.y, p.z);
@@ -82,8 +53,6 @@ void describe(PriorMap::Statistics& statistics, const Vec3& origin,
   statistics.low = origin + low.cast<double>();
   statistics.high = origin + high.cast<double>();
   statistics.points = points.size();
-  statistics.planar = static_cast<std::size_t>(
-      std::count_if(planes.begin(), planes.end(), [](const MapPlane& p) { return p.planar(); }));
 }
 
 }  // namespace
@@ -113,9 +82,10 @@ std::shared_ptr<const PriorMap> PriorMap::build(const PointCloud& cloud,
                                         nanoflann::KDTreeSingleIndexAdaptorParams(kLeafPoints));
   data->statistics.index_s = indexing.seconds();
   const Stopwatch fitting;
-  data->planes = fitPlanes(data->points, *data->tree, settings, arena);
+  data->planes = std::make_unique<PlaneStore>(data->points, *data->tree, settings);
+  data->statistics.planar = data->planes->countPlanar(arena);
   data->statistics.planes_s = fitting.seconds();
-  describe(data->statistics, data->origin, data->points, data->planes);
+  describe(data->statistics, data->origin, data->points);
   if (data->statistics.planar < kMinPlanes) {
     throw IoError(name + " holds no surface: of its " + std::to_string(data->points.size()) +
                   " points (thinned), " + std::to_string(data->statistics.planar) +
@@ -130,7 +100,7 @@ PriorMap::~PriorMap() = default;
 std::size_t PriorMap::size() const { return data_->points.size(); }
 const Vec3& PriorMap::origin() const { return data_->origin; }
 const Point3f& PriorMap::point(std::uint32_t index) const { return data_->points[index]; }
-const MapPlane& PriorMap::plane(std::uint32_t index) const { return data_->planes[index]; }
+MapPlane PriorMap::plane(std::uint32_t index) const { return data_->planes->at(index); }
 const PriorMap::Statistics& PriorMap::statistics() const { return data_->statistics; }
 
 PriorMap::Nearest PriorMap::nearest(const Point3f& local, float max_distance_m) const {

@@ -104,7 +104,7 @@ void Registration::search(Correspondence& match, const Vec3& position, const Vec
   match.near = nearest.found();
   if (!nearest.found()) return;
   match.distance = std::sqrt(static_cast<double>(nearest.distance_sq));
-  const MapPlane& plane = map_.plane(nearest.index);
+  const MapPlane plane = map_.plane(nearest.index);
   if (!plane.planar()) return;
   match.normal = Vec3(static_cast<double>(plane.nx), static_cast<double>(plane.ny),
                       static_cast<double>(plane.nz));

@@ -68,7 +68,7 @@ double blockedShare(const PriorMap& map, const std::vector<Point3f>& points_body
       const PriorMap::Nearest nearest = map.nearest(query, static_cast<float>(kBlockRadiusM));
       if (!nearest.found()) continue;
       // A ray that glides along a floor or wall comes near to it and does not pass through.
-      const MapPlane& plane = map.plane(nearest.index);
+      const MapPlane plane = map.plane(nearest.index);
       const Vec3 normal(static_cast<double>(plane.nx), static_cast<double>(plane.ny),
                         static_cast<double>(plane.nz));
       if (!plane.planar() || std::abs(normal.dot(direction)) < 0.5) continue;

@@ -9,11 +9,12 @@ namespace paloc {
 inline constexpr int kVoxelBits = 21;  ///< an axis: three of them fit in 64 bits
 inline constexpr double kVoxelLimit = 1 << (kVoxelBits - 1);
 
-/// The number of the voxel along one axis, shifted to be positive; saturates.
+/// The number of the voxel along one axis, shifted to be positive; saturates. Shifted first, so
+/// that cutting off the fraction rounds down: std::floor is a call on plain x86-64.
 inline std::uint64_t voxelIndex(float coordinate, double inverse_voxel) {
-  const double scaled = std::floor(static_cast<double>(coordinate) * inverse_voxel);
-  const double bounded = std::min(std::max(scaled, -kVoxelLimit), kVoxelLimit - 1);
-  return static_cast<std::uint64_t>(bounded + kVoxelLimit);
+  const double shifted = static_cast<double>(coordinate) * inverse_voxel + kVoxelLimit;
+  const double bounded = std::min(std::max(shifted, 0.0), 2 * kVoxelLimit - 1);
+  return static_cast<std::uint32_t>(static_cast<std::int32_t>(bounded));
 }
 
 /// Spreads the low 21 bits of a number, two zeros between each.

@@ -41,7 +41,7 @@ TEST(PriorMap, PlanesLieOnTheWalls) {
     const Point3f& p = map->point(k);
     // On the floor, clear of the walls.
     if (p.z > 0.02F || std::abs(p.x) > 4.5F || std::abs(p.y) > 3.5F) continue;
-    const MapPlane& plane = map->plane(k);
+    const MapPlane plane = map->plane(k);
     ++on_floor;
     if (!plane.planar()) continue;  // a point far out in the noise
     EXPECT_GT(std::abs(plane.nz), 0.995F);
@@ -68,7 +68,7 @@ TEST(PriorMap, FacesOfAThinWallAreKeptApart) {
   const auto map = PriorMap::build(cloud, {.plane_neighbours = 24});
   std::size_t right = 0, wrong = 0;
   for (std::uint32_t k = 0; k < map->size(); ++k) {
-    const MapPlane& plane = map->plane(k);
+    const MapPlane plane = map->plane(k);
     if (!plane.planar()) continue;
     const Point3f& p = map->point(k);
     const float face = p.y > 0.05F ? 0.1F : 0.0F;
@@ -107,7 +107,8 @@ TEST(PriorMap, SameBytesOnOneThreadAndTwo) {
   ASSERT_EQ(one->size(), two->size());
   for (std::uint32_t k = 0; k < one->size(); ++k) {
     ASSERT_EQ(std::memcmp(&one->point(k), &two->point(k), sizeof(Point3f)), 0);
-    ASSERT_EQ(std::memcmp(&one->plane(k), &two->plane(k), sizeof(MapPlane)), 0);
+    const MapPlane plane_one = one->plane(k), plane_two = two->plane(k);
+    ASSERT_EQ(std::memcmp(&plane_one, &plane_two, sizeof(MapPlane)), 0);
   }
 }
 

@@ -16,8 +16,9 @@
 namespace paloc {
 
 /// The map that scans are registered to: a cloud, thinned once, with a search tree and the plane
-/// about each of its points, fitted once. Immutable: every query may be made from any thread. The
-/// same cloud and settings give the same map, on any number of threads.
+/// about each of its points, fitted when it is first asked for, and kept: a recording sees a part
+/// of its map only. To its user immutable: every query may be made from any thread, and the same
+/// cloud and settings give the same answers, on any number of threads and in any order of queries.
 class PALOC_EXPORT PriorMap {
  public:
   static constexpr std::uint32_t kNoPoint = std::numeric_limits<std::uint32_t>::max();
@@ -31,12 +32,12 @@ class PALOC_EXPORT PriorMap {
 
   /// What the map is made of, for reports.
   struct Statistics {
-    std::size_t points_read = 0;                   ///< before thinning
-    std::size_t nonfinite = 0;                     ///< points of the file left out for that
-    std::size_t points = 0;                        ///< after
-    std::size_t planar = 0;                        ///< of these, with a plane
+    std::size_t points_read = 0;  ///< before thinning
+    std::size_t nonfinite = 0;    ///< points of the file left out for that
+    std::size_t points = 0;       ///< after
+    std::size_t planar = 0;  ///< of these, with a plane: of a large map, estimated from a sample
     Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< bounding box in the map frame (m)
-    double sort_s = 0, index_s = 0, planes_s = 0;  ///< time taken by thinning, tree, planes
+    double sort_s = 0, index_s = 0, planes_s = 0;  ///< time of thinning, tree, first planes
   };
 
   /// Reads a cloud (see loadCloud) and builds the map. Throws IoError in one sentence.
@@ -58,7 +59,8 @@ class PALOC_EXPORT PriorMap {
   /// are local, so that UTM coordinates keep their millimetres.
   const Vec3& origin() const;
   const Point3f& point(std::uint32_t index) const;  ///< local
-  const MapPlane& plane(std::uint32_t index) const;
+  /// The first time 5 to 10 us (a search for its neighbours and a fit), then at once.
+  MapPlane plane(std::uint32_t index) const;
   const Statistics& statistics() const;
 
   /// The nearest map point to a local position within a distance (m); of several equally near, any

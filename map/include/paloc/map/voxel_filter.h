@@ -23,7 +23,8 @@ class PALOC_EXPORT VoxelFilter {
 
   /// The same, with at most `max_points` kept (at least 1): where `finest_voxel_m` leaves more,
   /// the voxel is grown until it does not, so that the points stay evenly spread over the surfaces,
-  /// near and far.
+  /// near and far. Of more than 16 times as many points only a part is looked at, spread evenly
+  /// over their order.
   std::vector<std::uint32_t> selectAtMost(std::span<const Point3f> points, double finest_voxel_m,
                                           std::size_t max_points);
 
@@ -35,10 +36,16 @@ class PALOC_EXPORT VoxelFilter {
     double best_sq = 0;
   };
 
+  struct Slot {
+    std::uint64_t key = 0;
+    std::uint32_t cell_plus_one = 0;  // 0: free
+  };
+
+  std::uint32_t cellOf(std::uint64_t key);
+  void growTable();
   void hashPoints(std::span<const Point3f> points, double voxel_m);
 
-  std::vector<std::uint64_t> keys_;     // of the slots
-  std::vector<std::uint32_t> slots_;    // cell + 1; 0 is free
+  std::vector<Slot> slots_;             // a power of two of them, at most half of them taken
   std::vector<std::uint32_t> cell_of_;  // of each point
   std::vector<Cell> cells_;
 };
