@@ -1,16 +1,13 @@
 #include "paloc/tools/replay.h"
 
 #include <chrono>
+#include <optional>
 
-#include "paloc/core/errors.h"
 #include "paloc/core/mrpt_pose.h"
-#include "paloc/core/text.h"
 #include "paloc/core/trajectory_generator.h"
-#include "paloc/frontends/mrpt_time.h"
-#include "paloc/frontends/odometry_frontend.h"
-#include "paloc/frontends/rawlog_stream.h"
 #include "paloc/map/prior_map.h"
 #include "paloc/map/scan_matcher.h"
+#include "paloc/tools/event_source.h"
 #include "paloc/tools/scan_map.h"
 #include "paloc/tools/trajectory_stretches.h"
 
@@ -35,36 +32,35 @@ std::vector<Point3f> sampleOf(const PriorMap& map) {
 
 class Replay {
  public:
-  Replay(const ReplayOptions& options, const Config& config)
-      : options_(options), log_(options.log_file), config_(config) {}
+  Replay(const ReplayOptions& options, const Config& config, const std::atomic<bool>& interrupt)
+      : options_(options), config_(config), source_(options, config.frontend, interrupt) {
+    if (config.matcher.threads > 1) read_ahead_.emplace(source_);
+  }
 
-  ReplayOutcome run(const std::atomic<bool>& interrupt, const ReplayObserver& observer);
+  ReplayOutcome run(const ReplayObserver& observer);
 
  private:
   void loadMap();
   void makeEstimator();
-  bool wanted(const mrpt::obs::CObservation& observation);
-  void drainEvents();
-  void report(const ReplayObserver& observer, bool new_frame);
-  void finish(const ReplayObserver& observer);
-  void noteProblems();
+  std::optional<EventBatch> nextBatch() {
+    return read_ahead_ ? read_ahead_->next() : source_.next();
+  }
+  void take(const EventBatch& batch);
+  void report(const ReplayObserver& observer, const EventBatch& batch) const;
+  void finish();
+  std::vector<StageTimes> allStages() const;
 
   const ReplayOptions& options_;
-  RawlogStream log_;  // opened first: a missing recording is found before the map is loaded
   const Config& config_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  EventSource source_;  // opened first: a missing recording is found before the map is loaded
+  std::optional<ReadAhead> read_ahead_;  // of source_, while the map is loaded, too
   std::shared_ptr<const PriorMap> map_;
-  OdometryFrontend::Ptr frontend_;
   std::unique_ptr<TrajectoryGenerator> generator_;
   StageStopwatch stopwatch_;
   ScanMap scan_map_;
-  std::optional<TimeNs> first_ns_;
-  TimeNs last_ns_ = 0;
-  bool past_end_ = false;
   std::chrono::steady_clock::time_point reading_since_;
-  std::uint64_t read_ = 0;  // observations
   std::uint64_t frames_ = 0;
-  std::uint64_t outside_span_ = 0;
   ReplayOutcome outcome_;
 };
 
@@ -80,50 +76,27 @@ void Replay::loadMap() {
 }
 
 void Replay::makeEstimator() {
-  frontend_ = OdometryFrontend::create(options_.frontend, config_.frontend);
   generator_ = std::make_unique<TrajectoryGenerator>(config_.estimator,
                                                      ScanMatcher::onto(map_, config_.matcher));
   generator_->setStageTimer(&stopwatch_);
   if (options_.T_map_body_initial) generator_->setInitialPose(toMrpt(*options_.T_map_body_initial));
 }
 
-bool Replay::wanted(const mrpt::obs::CObservation& observation) {
-  const TimeNs t_ns = fromMrptTime(observation.timestamp);
-  if (!first_ns_) first_ns_ = t_ns;
-  const double since_start = secondsBetween(*first_ns_, t_ns);
-  past_end_ = options_.to_s && since_start > *options_.to_s;
-  if (since_start < options_.from_s || past_end_) {
-    ++outside_span_;
-    return false;
+void Replay::take(const EventBatch& batch) {
+  frames_ += batch.frames;
+  for (const FrontendEvent& event : batch.events) {
+    if (const auto* frame = std::get_if<OdometryFrame>(&event)) scan_map_.add(*frame);
+    generator_->add(event);
   }
-  last_ns_ = std::max(last_ns_, t_ns);
-  return true;
+  outcome_.notes.insert(outcome_.notes.end(), batch.notes.begin(), batch.notes.end());
 }
 
-void Replay::drainEvents() {
-  while (true) {
-    std::optional<FrontendEvent> event;
-    {
-      StageScope stage(&stopwatch_, "frontend");
-      event = frontend_->next();
-    }
-    if (!event) return;
-    if (const auto* frame = std::get_if<OdometryFrame>(&*event)) {
-      ++frames_;
-      scan_map_.add(*frame);
-    }
-    generator_->add(*event);
-  }
-}
-
-void Replay::report(const ReplayObserver& observer, bool new_frame) {
+void Replay::report(const ReplayObserver& observer, const EventBatch& batch) const {
+  if (!observer || (batch.frames == 0 && batch.notes.empty())) return;
   ReplayProgress progress;
-  progress.notes = frontend_->takeNotes();
-  outcome_.notes.insert(outcome_.notes.end(), progress.notes.begin(), progress.notes.end());
-  if (!observer || (!new_frame && progress.notes.empty())) return;
-  progress.share = log_.progress();
-  progress.speed_x_realtime =
-      first_ns_ ? secondsBetween(*first_ns_, last_ns_) / std::max(1e-9, secondsSince(start_)) : 0;
+  progress.notes = batch.notes;
+  progress.share = batch.share;
+  progress.speed_x_realtime = batch.recording_s / std::max(1e-9, secondsSince(start_));
   if (progress.share > kShareToTrust) {
     progress.left_s = secondsSince(reading_since_) * (1 - progress.share) / progress.share;
   }
@@ -136,70 +109,36 @@ void Replay::report(const ReplayObserver& observer, bool new_frame) {
   observer(progress);
 }
 
-void Replay::noteProblems() {
-  RunEnd& end = outcome_.end;
-  if (end.interrupted) return;  // more may have come
-  if (read_ == 0) {
-    if (end.damage.empty())
-      end.problems.push_back(options_.log_file.string() + ": holds no observation");
-  } else if (read_ == outside_span_) {
-    end.problems.push_back(text("--from and --to leave nothing of the recording: all of ", read_,
-                                " observations lie outside"));
-  } else {
-    end.problems = frontend_->problems();
-  }
+// In the order of the work.
+std::vector<StageTimes> Replay::allStages() const {
+  std::vector<StageTimes> stages = stopwatch_.stages();
+  stages.insert(stages.begin() + 1, source_.stages().begin(), source_.stages().end());
+  return stages;
 }
 
-void Replay::finish(const ReplayObserver& observer) {
-  {
-    StageScope stage(&stopwatch_, "frontend");
-    frontend_->finish();
-  }
-  drainEvents();
+void Replay::finish() {
   outcome_.result = generator_->finish();
-  outcome_.unused.merge(frontend_->unused());
+  outcome_.unused.merge(source_.unused());
   outcome_.unused.merge(generator_->unused());
-  outcome_.unused.add("observations", "all", "outside --from and --to", outside_span_);
-  report(observer, false);
-  if (log_.end() == RawlogStream::End::kDamaged) outcome_.end.damage = log_.error();
-  noteProblems();
-  if (read_ > outside_span_) {
-    outcome_.recording_s = secondsBetween(*first_ns_, last_ns_) - options_.from_s;
-  }
+  outcome_.end = source_.runEnd();
+  outcome_.recording_s = source_.recordingSeconds();
   {
     StageScope stage(&stopwatch_, "map_of_scans");
     outcome_.map_of_scans = scan_map_.build(outcome_.result.trajectory, options_.output_voxel_m);
   }
-  outcome_.stages = stopwatch_.stages();
+  outcome_.stages = allStages();
   outcome_.wall_s = secondsSince(start_);
 }
 
-ReplayOutcome Replay::run(const std::atomic<bool>& interrupt, const ReplayObserver& observer) {
+ReplayOutcome Replay::run(const ReplayObserver& observer) {
   loadMap();
   makeEstimator();
   reading_since_ = std::chrono::steady_clock::now();
-  while (!past_end_) {
-    if (interrupt) {
-      outcome_.end.interrupted = true;
-      break;
-    }
-    mrpt::obs::CObservation::Ptr observation;
-    {
-      StageScope stage(&stopwatch_, "read");
-      observation = log_.next();
-    }
-    if (!observation) break;
-    ++read_;
-    if (!wanted(*observation)) continue;
-    {
-      StageScope stage(&stopwatch_, "frontend");
-      frontend_->add(*observation);
-    }
-    const std::uint64_t frames_before = frames_;
-    drainEvents();
-    report(observer, frames_ != frames_before);
+  while (const std::optional<EventBatch> batch = nextBatch()) {
+    take(*batch);
+    report(observer, *batch);
   }
-  finish(observer);
+  finish();
   return std::move(outcome_);
 }
 
@@ -207,7 +146,7 @@ ReplayOutcome Replay::run(const std::atomic<bool>& interrupt, const ReplayObserv
 
 ReplayOutcome replay(const ReplayOptions& options, const Config& config,
                      const std::atomic<bool>& interrupt, const ReplayObserver& observer) {
-  return Replay(options, config).run(interrupt, observer);
+  return Replay(options, config, interrupt).run(observer);
 }
 
 }  // namespace paloc

@@ -18,7 +18,8 @@ struct StageTimes {
   double percentile(double share) const;
 };
 
-/// Measures stages by wall clock. Stages may nest; each counts its own whole time.
+/// Measures stages by wall clock. Stages may nest; each counts its own whole time. One object
+/// serves one thread.
 class StageStopwatch : public StageTimer {
  public:
   void begin(const char* stage) override;
