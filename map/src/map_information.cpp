@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 namespace paloc {
 namespace {
@@ -9,6 +10,72 @@ namespace {
 constexpr double kSamePlaneCosine = 0.978;  // 12 degrees
 constexpr double kSamePlaneHeightM = 0.1;
 constexpr double kSharedThickness = 0.25;  // of the square
+
+using Vec4f = float __attribute__((vector_size(16)));
+using Vec4i = std::int32_t __attribute__((vector_size(16)));
+
+// What single precision may be wrong by, generously.
+constexpr float kSlackM = 1e-3F, kSlackCosine = 1e-4F;
+
+struct Patch {
+  Vec3 normal, point;
+  double thickness_sq = 0;
+  int rows = 0;
+};
+
+bool liesOn(const PlaneRow& row, const Patch& patch, double patch_sq) {
+  const double cosine = patch.normal.dot(row.normal_body);
+  if (std::abs(cosine) < kSamePlaneCosine) return false;
+  const Vec3 apart = row.point_body - patch.point;
+  // Measured along the mean of both normals: each alone is uncertain over a long lever.
+  const double sign = cosine < 0 ? -1 : 1;
+  const double height = apart.dot(patch.normal + sign * row.normal_body) / 2;
+  return std::abs(height) < kSamePlaneHeightM && apart.squaredNorm() < patch_sq;
+}
+
+// Four patches side by side, in single precision, to leave out at once what is far from fitting.
+struct PatchGroup {
+  Vec4f nx{}, ny{}, nz{}, px{}, py{}, pz{};  // a lane not in use has no normal and fits nothing
+
+  void set(std::size_t lane, const Patch& patch) {
+    nx[lane] = static_cast<float>(patch.normal.x());
+    ny[lane] = static_cast<float>(patch.normal.y());
+    nz[lane] = static_cast<float>(patch.normal.z());
+    px[lane] = static_cast<float>(patch.point.x());
+    py[lane] = static_cast<float>(patch.point.y());
+    pz[lane] = static_cast<float>(patch.point.z());
+  }
+
+  // The lanes that may fit: all that liesOn() accepts, unless the scan is kilometres wide.
+  Vec4i mayFit(const Eigen::Vector3f& n, const Eigen::Vector3f& p) const {
+    const Vec4f cosine = nx * n.x() + ny * n.y() + nz * n.z();
+    const Vec4f ax = p.x() - px, ay = p.y() - py, az = p.z() - pz;
+    const Vec4f own = ax * n.x() + ay * n.y() + az * n.z();
+    const Vec4f other = ax * nx + ay * ny + az * nz;
+    const Vec4f twice_height = cosine < 0 ? other - own : other + own;
+    constexpr float kLowCosine = static_cast<float>(kSamePlaneCosine) - kSlackCosine;
+    constexpr float kTwiceHigh = 2 * static_cast<float>(kSamePlaneHeightM) + kSlackM;
+    return (cosine * cosine > kLowCosine * kLowCosine) &
+           (twice_height * twice_height < kTwiceHigh * kTwiceHigh);
+  }
+};
+
+bool any(const Vec4i& lanes) { return (lanes[0] | lanes[1] | lanes[2] | lanes[3]) != 0; }
+
+// The first of the patches that the row lies on, or their number.
+std::size_t firstPatch(const PlaneRow& row, const std::vector<Patch>& patches,
+                       const std::vector<PatchGroup>& groups, double patch_sq) {
+  const Eigen::Vector3f normal = row.normal_body.cast<float>(),
+                        point = row.point_body.cast<float>();
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const Vec4i lanes = groups[g].mayFit(normal, point);
+    if (!any(lanes)) continue;
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      if (lanes[lane] != 0 && liesOn(row, patches[4 * g + lane], patch_sq)) return 4 * g + lane;
+    }
+  }
+  return patches.size();
+}
 
 struct PatchSums {
   Vec6 jacobian = Vec6::Zero();  // Y_k
@@ -22,13 +89,16 @@ struct PatchSums {
 NormalEquations sharedErrorEquations(std::span<const PlaneRow> rows, const SharedErrors& shared) {
   std::vector<PatchSums> sums(shared.patch_variances.size());
   NormalEquations equations;
+  Mat6 upper = Mat6::Zero();
   Vec6 range_jacobian = Vec6::Zero();
   double range_weight = 0, range_residual = 0;
   for (const PlaneRow& row : rows) {
     const Vec6 j = row.jacobian();
     const double weight = 1 / row.variance;
     const Vec6 weighted = weight * j;
-    equations.information.noalias() += weighted * j.transpose();
+    for (int column = 0; column < 6; ++column) {
+      for (int k = 0; k <= column; ++k) upper(k, column) += weighted[k] * j[column];
+    }
     equations.gradient += weighted * row.residual;
     range_jacobian += row.range_factor * weighted;
     range_weight += weight * row.range_factor * row.range_factor;
@@ -40,6 +110,7 @@ NormalEquations sharedErrorEquations(std::span<const PlaneRow> rows, const Share
     patch.range += weight * row.range_factor;
     patch.residual += weight * row.residual;
   }
+  equations.information = upper.selfadjointView<Eigen::Upper>();
   for (std::size_t k = 0; k < sums.size(); ++k) {
     if (shared.patch_variances[k] <= 0) continue;
     const PatchSums& patch = sums[k];
@@ -61,25 +132,16 @@ NormalEquations sharedErrorEquations(std::span<const PlaneRow> rows, const Share
 }
 
 std::vector<double> assignPatches(std::span<PlaneRow> rows, double patch_m, double plane_bias_m) {
-  struct Patch {
-    Vec3 normal, point;
-    double thickness_sq = 0;
-    int rows = 0;
-  };
   std::vector<Patch> patches;
+  std::vector<PatchGroup> groups;
   const double patch_sq = patch_m * patch_m;
   for (PlaneRow& row : rows) {
-    std::size_t index = 0;
-    for (; index < patches.size(); ++index) {
-      const Patch& patch = patches[index];
-      if (std::abs(patch.normal.dot(row.normal_body)) < kSamePlaneCosine) continue;
-      const Vec3 apart = row.point_body - patch.point;
-      // Measured along the mean of both normals: each alone is uncertain over a long lever.
-      const double sign = patch.normal.dot(row.normal_body) < 0 ? -1 : 1;
-      const double height = apart.dot(patch.normal + sign * row.normal_body) / 2;
-      if (std::abs(height) < kSamePlaneHeightM && apart.squaredNorm() < patch_sq) break;
+    const std::size_t index = firstPatch(row, patches, groups, patch_sq);
+    if (index == patches.size()) {
+      patches.push_back({row.normal_body, row.point_body});
+      if (index % 4 == 0) groups.emplace_back();
+      groups.back().set(index % 4, patches.back());
     }
-    if (index == patches.size()) patches.push_back({row.normal_body, row.point_body});
     row.patch = static_cast<int>(index);
     patches[index].thickness_sq += row.surface_sigma * row.surface_sigma;
     ++patches[index].rows;

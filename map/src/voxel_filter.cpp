@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "voxel_key.h"
 
@@ -11,6 +12,7 @@ namespace {
 // However large, voxels that meet at the origin part the points about it into eight.
 constexpr std::size_t kOctants = 8;
 constexpr std::size_t kFewestSlots = 1 << 12;
+constexpr std::uint32_t kFree = std::numeric_limits<std::uint32_t>::max();
 // So many times the points wanted are enough to choose from.
 constexpr std::size_t kEnoughChoice = 8;
 
@@ -37,46 +39,40 @@ std::vector<Point3f> pointsAt(std::span<const Point3f> points,
 std::uint32_t VoxelFilter::cellOf(std::uint64_t key) {
   if (2 * (cells_.size() + 1) > slots_.size()) growTable();
   const std::uint64_t mask = slots_.size() - 1;
-  std::uint64_t at = hashKey(key) & mask;
-  while (slots_[at].cell_plus_one != 0 && slots_[at].key != key) at = (at + 1) & mask;
-  if (slots_[at].cell_plus_one == 0) {
-    cells_.emplace_back();
-    slots_[at] = {key, static_cast<std::uint32_t>(cells_.size())};
+  for (std::uint64_t at = hashKey(key) & mask;; at = (at + 1) & mask) {
+    if (slots_[at] == kFree) {
+      slots_[at] = static_cast<std::uint32_t>(cells_.size());
+      cells_.push_back({.key = key});
+      return slots_[at];
+    }
+    if (cells_[slots_[at]].key == key) return slots_[at];
   }
-  return slots_[at].cell_plus_one - 1;
 }
 
 // The table follows the number of voxels, not that of points: it then fits in the cache.
 void VoxelFilter::growTable() {
-  std::vector<Slot> old(std::max(kFewestSlots, 2 * slots_.size()));
-  old.swap(slots_);
+  slots_.assign(std::max(kFewestSlots, 2 * slots_.size()), kFree);
   const std::uint64_t mask = slots_.size() - 1;
-  for (const Slot& slot : old) {
-    if (slot.cell_plus_one == 0) continue;
-    std::uint64_t at = hashKey(slot.key) & mask;
-    while (slots_[at].cell_plus_one != 0) at = (at + 1) & mask;
-    slots_[at] = slot;
+  for (std::uint32_t cell = 0; cell < cells_.size(); ++cell) {
+    std::uint64_t at = hashKey(cells_[cell].key) & mask;
+    while (slots_[at] != kFree) at = (at + 1) & mask;
+    slots_[at] = cell;
   }
 }
 
 // Gives each point its cell, and each cell the sum of its points.
 void VoxelFilter::hashPoints(std::span<const Point3f> points, double voxel_m) {
-  std::fill(slots_.begin(), slots_.end(), Slot{});
+  std::fill(slots_.begin(), slots_.end(), kFree);
   cell_of_.resize(points.size());
   cells_.clear();
   const double inverse = 1 / voxel_m;
-  std::uint64_t last_key = ~std::uint64_t{0};  // of no voxel: its top bit is set
-  std::uint32_t cell_index = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point3f& p = points[i];
-    const std::uint64_t key = voxelIndex(p.x, inverse) | voxelIndex(p.y, inverse) << kVoxelBits |
-                              voxelIndex(p.z, inverse) << (2 * kVoxelBits);
-    if (key != last_key) {  // neighbours in a scan often share a voxel
-      cell_index = cellOf(key);
-      last_key = key;
-    }
-    cell_of_[i] = cell_index;
-    Cell& cell = cells_[cell_index];
+    const std::uint32_t index =
+        cellOf(voxelIndex(p.x, inverse) | voxelIndex(p.y, inverse) << kVoxelBits |
+               voxelIndex(p.z, inverse) << (2 * kVoxelBits));
+    cell_of_[i] = index;
+    Cell& cell = cells_[index];
     cell.x += static_cast<double>(p.x);
     cell.y += static_cast<double>(p.y);
     cell.z += static_cast<double>(p.z);
@@ -91,7 +87,6 @@ std::vector<std::uint32_t> VoxelFilter::select(std::span<const Point3f> points, 
     cell.x *= inverse_count;
     cell.y *= inverse_count;
     cell.z *= inverse_count;
-    cell.best_sq = -1;
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     Cell& cell = cells_[cell_of_[i]];
@@ -99,10 +94,10 @@ std::vector<std::uint32_t> VoxelFilter::select(std::span<const Point3f> points, 
     const double dy = static_cast<double>(points[i].y) - cell.y;
     const double dz = static_cast<double>(points[i].z) - cell.z;
     const double distance_sq = dx * dx + dy * dy + dz * dz;
-    if (cell.best_sq < 0 || distance_sq < cell.best_sq) {
-      cell.best_sq = distance_sq;
-      cell.best = static_cast<std::uint32_t>(i);
-    }
+    // No branch: which point is nearer cannot be foreseen.
+    const bool nearer = distance_sq < cell.best_sq;
+    cell.best_sq = nearer ? distance_sq : cell.best_sq;
+    cell.best = nearer ? static_cast<std::uint32_t>(i) : cell.best;
   }
   std::vector<std::uint32_t> kept(cells_.size());
   for (std::size_t c = 0; c < cells_.size(); ++c) kept[c] = cells_[c].best;

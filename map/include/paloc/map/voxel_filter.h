@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -30,22 +31,18 @@ class PALOC_EXPORT VoxelFilter {
 
  private:
   struct Cell {
-    double x = 0, y = 0, z = 0;  // sums
+    std::uint64_t key = 0;
+    double x = 0, y = 0, z = 0;  // sums, then the centroid
     std::uint32_t count = 0;
     std::uint32_t best = 0;
-    double best_sq = 0;
-  };
-
-  struct Slot {
-    std::uint64_t key = 0;
-    std::uint32_t cell_plus_one = 0;  // 0: free
+    double best_sq = std::numeric_limits<double>::max();
   };
 
   std::uint32_t cellOf(std::uint64_t key);
   void growTable();
   void hashPoints(std::span<const Point3f> points, double voxel_m);
 
-  std::vector<Slot> slots_;             // a power of two of them, at most half of them taken
+  std::vector<std::uint32_t> slots_;  // cells, by hash; a power of two, at most half of them taken
   std::vector<std::uint32_t> cell_of_;  // of each point
   std::vector<Cell> cells_;
 };
