@@ -288,16 +288,16 @@ std::vector<TrajectoryPoint> TrajectoryGenerator::smoothAll() {
   return points;
 }
 
-Result TrajectoryGenerator::finish() {
+Result TrajectoryGenerator::finish(Smoothing smoothing) {
   for (const NodeEstimate& rest : smoother_.window(true)) {
     const auto index = static_cast<std::size_t>(rest.id);
     history_[index].node.state = rest.state;
     online_.push_back(pointOf(rest, index));
   }
   Result result;
-  result.trajectory = smoothAll();
+  if (smoothing == Smoothing::kBatch) result.trajectory = smoothAll();
   if (result.trajectory.empty() && !online_.empty()) {
-    result.batch_failed = true;
+    result.batch_failed = smoothing == Smoothing::kBatch;
     result.trajectory = online_;
   }
   setFlags(online_);

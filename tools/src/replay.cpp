@@ -86,6 +86,8 @@ void Replay::take(const EventBatch& batch) {
   frames_ += batch.frames;
   for (const FrontendEvent& event : batch.events) {
     if (const auto* frame = std::get_if<OdometryFrame>(&event)) scan_map_.add(*frame);
+    const auto* sample = std::get_if<ImuSample>(&event);
+    if (sample && options_.keep_imu) outcome_.imu.add(*sample);
     generator_->add(event);
   }
   outcome_.notes.insert(outcome_.notes.end(), batch.notes.begin(), batch.notes.end());
@@ -117,7 +119,7 @@ std::vector<StageTimes> Replay::allStages() const {
 }
 
 void Replay::finish() {
-  outcome_.result = generator_->finish();
+  outcome_.result = generator_->finish(options_.online ? Smoothing::kOnline : Smoothing::kBatch);
   outcome_.unused.merge(source_.unused());
   outcome_.unused.merge(generator_->unused());
   outcome_.end = source_.runEnd();

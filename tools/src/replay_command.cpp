@@ -9,6 +9,7 @@
 #include "paloc/frontends/tum_file.h"
 #include "paloc/tools/commands.h"
 #include "paloc/tools/config_options.h"
+#include "paloc/tools/dense_output.h"
 #include "paloc/tools/html_text.h"
 #include "paloc/tools/parse_pose.h"
 #include "paloc/tools/progress_line.h"
@@ -76,6 +77,16 @@ class ReplayCommand : public Command {
         ->check(CLI::NonNegativeNumber);
     replay_->add_option("--to", to_s_, "stop this long after the recording's start (s)")
         ->check(CLI::PositiveNumber);
+    replay_->add_flag(
+        "--online", options_.online,
+        "write what left the fixed-lag window, instead of smoothing all data at once");
+    replay_
+        ->add_option("--rate", rate_, "besides, poses at the stamps of the IMU: trajectory_imu.*")
+        ->check(CLI::IsMember({"scan", "imu"}))
+        ->capture_default_str();
+    replay_->add_option("--stamps", stamps_file_,
+                        "besides, poses at the stamps in this file (s, first field of a line): "
+                        "trajectory_stamps.*");
     replay_->add_option("-j", threads_, "threads; the result is the same for any number")
         ->check(CLI::Range(1, 256));
     replay_->add_option("-o,--output", output_, "result folder")->capture_default_str();
@@ -99,6 +110,8 @@ class ReplayCommand : public Command {
     if (options_.to_s && *options_.to_s <= options_.from_s) {
       throw UsageError("--to must be later than --from: both count from the recording's start");
     }
+    if (!stamps_file_.empty()) stamps_ = readStamps(stamps_file_);
+    options_.keep_imu = rate_ == "imu" || !stamps_.empty();
     const ResultFolder folder(output_, overwrite_);
 
     std::signal(SIGINT, onInterrupt);
@@ -117,19 +130,37 @@ class ReplayCommand : public Command {
   // What came out is told even if it cannot be written: it may have taken hours.
   ExitCode tell(const ResultFolder& folder, const Config& config,
                 const ReplayOutcome& outcome) const {
-    std::string not_written;
+    std::string not_written, dense;
     try {
       writeResult(folder, options_, config, outcome, commandLine());
+      dense = writeDense(folder, config, outcome);
     } catch (const IoError& e) {
       not_written = e.what();
     }
     std::ostream& table = json_ ? std::cerr : std::cout;
-    table << summaryText(outcome);
+    table << summaryText(outcome) << dense;
     if (json_) std::cout << summaryJson(outcome).dump(2) << '\n';
     if (!not_written.empty()) throw IoError(not_written);
     table << "results in       " << folder.path().string() << " (report.html)\n";
     if (!std::cout.flush()) throw IoError("standard output: cannot be written");
     return verdictOf(outcome).code;
+  }
+
+  // The dense outputs that were asked for; returns what to tell of them.
+  std::string writeDense(const ResultFolder& folder, const Config& config,
+                         const ReplayOutcome& outcome) const {
+    if (!options_.keep_imu || outcome.result.trajectory.empty()) return {};
+    const DenseTrajectory dense = denseTrajectory(outcome.result.trajectory, outcome.imu, config);
+    std::string told;
+    if (rate_ == "imu") {
+      told += "at IMU rate      " +
+              writeDensePoses(folder, "trajectory_imu", posesAt(dense, dense.imuStamps()));
+    }
+    if (!stamps_.empty()) {
+      told += "at given stamps  " +
+              writeDensePoses(folder, "trajectory_stamps", posesAt(dense, stamps_));
+    }
+    return told;
   }
 
   // As the user would type it again.
@@ -139,6 +170,9 @@ class ReplayCommand : public Command {
          << options_.frontend << " --config config_effective.yaml";
     if (!init_pose_.empty()) line << " --init-pose=" << init_pose_;
     if (!init_tum_.empty()) line << " --init-tum " << init_tum_;
+    if (options_.online) line << " --online";
+    if (rate_ != "scan") line << " --rate " << rate_;
+    if (!stamps_file_.empty()) line << " --stamps " << stamps_file_;
     if (options_.from_s > 0) line << " --from " << options_.from_s;
     if (options_.to_s) line << " --to " << *options_.to_s;
     return line.str();
@@ -148,6 +182,8 @@ class ReplayCommand : public Command {
   ReplayOptions options_;
   ConfigOptions config_;
   std::string init_pose_, init_tum_;
+  std::string rate_ = "scan", stamps_file_;
+  std::vector<TimeNs> stamps_;
   std::string output_ = "paloc_result";
   double to_s_ = 0;
   int threads_ = 0;

@@ -16,6 +16,9 @@
 
 namespace paloc {
 
+/// Which trajectory a run results in: that of all data at once, or what left the fixed-lag window.
+enum class Smoothing { kBatch, kOnline };
+
 /// The estimator: odometry frames and IMU samples in, a trajectory in the map's frame out. One node
 /// of a fixed-lag smoother per frame; at the end all nodes are smoothed at once.
 class PALOC_EXPORT TrajectoryGenerator {
@@ -41,8 +44,9 @@ class PALOC_EXPORT TrajectoryGenerator {
   bool started() const { return !history_.empty(); }
   const UnusedCounts& unused() const { return unused_; }
 
-  /// Smooths the whole recording and returns everything. Call it once, at the end.
-  Result finish();
+  /// Smooths the whole recording, unless asked not to, and returns everything. Call it once, at the
+  /// end.
+  Result finish(Smoothing smoothing = Smoothing::kBatch);
 
  private:
   struct HistoryNode {

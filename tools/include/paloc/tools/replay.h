@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "paloc/config/config.h"
+#include "paloc/core/imu_buffer.h"
 #include "paloc/core/pose.h"
 #include "paloc/core/trajectory.h"
 #include "paloc/core/unused_counts.h"
@@ -25,6 +26,8 @@ struct ReplayOptions {
   std::optional<Pose> T_map_body_initial;  ///< rough pose at the first scan
   double from_s = 0;                       ///< skip so much of the recording at its start
   std::optional<double> to_s;              ///< stop so long after the recording's start
+  bool online = false;                     ///< the result is what left the fixed-lag window
+  bool keep_imu = false;                   ///< the outcome holds all IMU samples, for dense output
   double output_voxel_m = 0.05;            ///< of the map made of the scans
 };
 
@@ -46,6 +49,7 @@ struct ReplayOutcome {
   UnusedCounts unused;
   std::vector<std::string> notes;  ///< sentences for the user, in the order they came up
   RunEnd end;
+  ImuBuffer imu;  ///< all samples, if they were to be kept
   PointCloud map_of_scans;
   std::vector<Point3f> prior_map_sample;  ///< relative to its origin (m), for the report's picture
   Vec3 prior_map_origin = Vec3::Zero();   ///< in the map frame (m)
