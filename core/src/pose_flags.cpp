@@ -57,7 +57,7 @@ std::string noTrajectoryReason(std::size_t frames, bool has_initial_pose, int st
                                                 : "at each of " + std::to_string(start_attempts) +
                                                       " scans tried, the last time: ";
   return "the initial pose was refused " + where + toString(last_refusal) +
-         " (it may be off by about 1 m and 10 degrees)";
+         " (one within about 1 m and 10 degrees is needed)";
 }
 
 }  // namespace paloc

@@ -249,6 +249,7 @@ std::string RecordedOdometry::whyNoScan() const {
 
 void RecordedOdometry::noteAtEnd() {
   for (const StreamChoice* choice : {&lidar_, &imu_, &odometry_}) note(choice->remark());
+  if (!lidar_.chosen()) return;  // the rest is about what helps its scans
   const bool imu = !imu_samples_.empty(), odometry = !track_.empty();
   if (!imu && !odometry) {
     note(

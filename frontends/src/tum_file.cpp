@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "paloc/core/errors.h"
+#include "paloc/core/seconds_text.h"
 
 namespace paloc {
 namespace {
@@ -98,16 +99,6 @@ void appendFixed(std::string& line, double value) {
   line.append(text);
 }
 
-void appendSeconds(std::string& line, TimeNs t_ns) {
-  // The quotient and the remainder of a negative time are negative or zero both.
-  const std::int64_t nanoseconds = std::abs(t_ns % kNsPerSecond);
-  const std::string decimals = std::to_string(nanoseconds);
-  if (t_ns < 0) line += '-';
-  line += std::to_string(std::abs(t_ns / kNsPerSecond)) + '.';
-  line.append(9 - decimals.size(), '0');
-  line += decimals;
-}
-
 }  // namespace
 
 std::vector<StampedPose> readTum(const std::filesystem::path& file) {
@@ -132,7 +123,7 @@ std::string tumLine(const StampedPose& pose) {
   const Vec3& p = pose.pose.position;
   std::string line;
   line.reserve(120);
-  appendSeconds(line, pose.t_ns);
+  line += secondsText(pose.t_ns);
   for (const double value : {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()}) {
     line += ' ';
     appendFixed(line, value);
@@ -143,11 +134,11 @@ std::string tumLine(const StampedPose& pose) {
 void writeTum(const std::filesystem::path& file, const std::vector<StampedPose>& poses) {
   std::ofstream out(file, std::ios::binary | std::ios::trunc);
   if (!out) {
-    throw IoError("cannot write the trajectory " + file.string() + ": " + std::strerror(errno));
+    throw IoError(file.string() + ": cannot be written: " + std::strerror(errno));
   }
   for (const StampedPose& pose : poses) out << tumLine(pose) << '\n';
   out.close();
-  if (!out) throw IoError("the trajectory " + file.string() + " could not be written completely");
+  if (!out) throw IoError(file.string() + ": cannot be written completely (is the disk full?)");
 }
 
 }  // namespace paloc

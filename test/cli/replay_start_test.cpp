@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "paloc/frontends/tum_file.h"
 #include "paloc/map/cloud_io.h"
 #include "replay_demo.h"
 
@@ -70,6 +71,28 @@ TEST_F(ReplayStart, PointsOfTheMapThatAreNoNumbersAreCounted) {
   EXPECT_NE(run.out.find("100 x point 'nan.ply': not finite"), std::string::npos) << run.out;
 }
 
+// A survey in UTM coordinates, of which a float holds no more than half a metre.
+TEST_F(ReplayStart, MapFarFromItsOriginIsAsGood) {
+  const Vec3 away(512'345.25, 4'612'345.5, 301);
+  PointCloud cloud = loadCloud(demoMap());
+  cloud.origin += away;
+  savePly(dir_ / "utm.ply", cloud, "far");
+  auto truth = readTum(test::demoFolder() / "truth.tum");
+  for (StampedPose& pose : truth) pose.pose.position += away;
+  writeTum(dir_ / "utm.tum", truth);
+  ReplayCall call;
+  call.map = dir_ / "utm.ply";
+  call.start = {"--init-tum", dir_ / "utm.tum"};
+  const ReplayRun far = replay(call);
+  EXPECT_EQ(far.exit_code, 0) << far.err << far.out;
+  EXPECT_NE(far.file("report.html").find("<image"), std::string::npos);
+  const auto poses = readTum(far.folder / "trajectory.tum");
+  ASSERT_EQ(poses.size(), truth.size());
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    EXPECT_LT((poses[k].pose.position - truth[k].pose.position).norm(), 0.02) << k;
+  }
+}
+
 TEST_F(ReplayStart, RecordingThatIsNotThereIsNamed) {
   expectRefused(withLog(dir_ / "no.rawlog"), 3, "no.rawlog: no such file");
   expectRefused(withLog(dir_.path()), 3, dir_.path().string() + ": is a folder");
@@ -90,6 +113,7 @@ TEST_F(ReplayStart, WithoutAnInitialPoseThereIsNoLocalization) {
   EXPECT_EQ(run.exit_code, 4);
   EXPECT_EQ(run.summary.at("status"), "no localization");
   EXPECT_EQ(run.sentence(), "no initial pose was given (--init-pose or --init-tum).");
+  EXPECT_NE(run.err.find("note: LiDAR 'lidar'"), std::string::npos) << run.err;
   EXPECT_EQ(run.summary.at("map_factors").at("refused").at("not tried"), 50);
   EXPECT_FALSE(std::filesystem::exists(run.folder / "trajectory.tum"));
 }

@@ -7,6 +7,7 @@
 #include "paloc/core/batch_smoother.h"
 #include "paloc/core/fixed_lag_smoother.h"
 #include "paloc/tools/peak_memory.h"
+#include "paloc/tools/quantile.h"
 #include "problem_nodes.h"
 
 namespace paloc {
@@ -31,13 +32,8 @@ class Stopwatch {
   TimeNs cpu_begin_ = now(CLOCK_THREAD_CPUTIME_ID);
 };
 
-TimeStatistics timeStatistics(std::vector<double> times_ms) {
-  if (times_ms.empty()) return {};
-  std::sort(times_ms.begin(), times_ms.end());
-  const auto quantile = [&](double q) {
-    return times_ms[static_cast<std::size_t>(q * static_cast<double>(times_ms.size() - 1))];
-  };
-  return {quantile(0.5), quantile(0.99), times_ms.back()};
+TimeStatistics timeStatistics(const std::vector<double>& times_ms) {
+  return {quantile(times_ms, 0.5), quantile(times_ms, 0.99), quantile(times_ms, 1)};
 }
 
 /// Collects the errors of poses against the truth.

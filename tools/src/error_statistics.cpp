@@ -3,24 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "paloc/tools/quantile.h"
+
 namespace paloc {
-namespace {
-
-double quantile(const std::vector<double>& sorted, double q) {
-  const double place = q * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-}
-
-}  // namespace
 
 ErrorStatistics errorStatistics(std::vector<double> errors) {
   ErrorStatistics s;
   s.count = errors.size();
   if (errors.empty()) return s;
   const auto n = static_cast<double>(errors.size());
-  std::sort(errors.begin(), errors.end());
   double sum = 0, sum_sq = 0;
   for (const double e : errors) {
     sum += e;
@@ -33,8 +24,8 @@ ErrorStatistics errorStatistics(std::vector<double> errors) {
   s.std = std::sqrt(deviation_sq / n);
   s.median = quantile(errors, 0.5);
   s.p95 = quantile(errors, 0.95);
-  s.min = errors.front();
-  s.max = errors.back();
+  s.min = *std::min_element(errors.begin(), errors.end());
+  s.max = *std::max_element(errors.begin(), errors.end());
   return s;
 }
 

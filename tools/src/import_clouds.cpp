@@ -8,6 +8,8 @@
 #include "paloc/core/text.h"
 #include "paloc/map/cloud_io.h"
 #include "paloc/tools/imu_csv.h"
+#include "paloc/tools/quantile.h"
+#include "paloc/tools/result_folder.h"
 
 namespace paloc {
 namespace {
@@ -62,10 +64,7 @@ double medianPeriod(const std::vector<ScanEntry>& scans) {
     if (step > 0) steps.push_back(step);
   }
   constexpr double kUsual = 0.1;
-  if (steps.empty()) return kUsual;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return steps.empty() ? kUsual : quantile(std::move(steps), 0.5);
 }
 
 // Looks into some scans, evenly spread, and decides how times and intensities are to be read.
@@ -140,7 +139,7 @@ void noteImu(const std::vector<ImuSample>& imu, ImportSummary& summary) {
 
 ImportSummary importClouds(const ImportCloudsSettings& settings,
                            const std::function<void(double)>& progress) {
-  checkOutput(settings.output);
+  checkNotThere(settings.output.file, settings.output.overwrite);
   ImportSummary summary;
   ImportParts parts;
   ScanConversion how = settings.scans;

@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
@@ -11,6 +9,7 @@
 #include "paloc/tools/import_clouds.h"
 #include "paloc/tools/import_kitti.h"
 #include "paloc/tools/parse_pose.h"
+#include "paloc/tools/progress_line.h"
 
 namespace paloc {
 namespace {
@@ -40,12 +39,6 @@ const std::map<std::string, TimeReference> kReferences{{"stamp", TimeReference::
                                                        {"absolute", TimeReference::kAbsolute},
                                                        {"end", TimeReference::kEnd}};
 
-// A line that is written over, on a terminal only.
-void showProgress(double share) {
-  if (::isatty(STDERR_FILENO) == 0) return;
-  std::fprintf(stderr, "\rimporting %3.0f %%\x1b[K", 100 * share);
-}
-
 class ImportCommand : public Command {
  public:
   void registerOn(CLI::App& app) override {
@@ -62,7 +55,7 @@ class ImportCommand : public Command {
         gzip_ ? RawlogWriter::Compression::kGzip : RawlogWriter::Compression::kNone;
     if (!T_body_lidar_.empty()) scans_.T_body_lidar = parsePose(T_body_lidar_, "--T-body-lidar");
     const ImportSummary summary = clouds_command_->parsed() ? runClouds() : runKitti();
-    if (::isatty(STDERR_FILENO) != 0) std::cerr << "\r\x1b[K";
+    progress_.finish();
     if (json_) {
       std::cout << jsonOf(summary).dump(2) << '\n';
     } else {
@@ -125,14 +118,20 @@ class ImportCommand : public Command {
     if (not_deskewed_) scans_.deskewed = Deskewed::kNo;
     clouds_.scans = scans_;
     clouds_.output = output_;
-    return importClouds(clouds_, showProgress);
+    return importClouds(clouds_, [this](double share) { showProgress(share); });
   }
 
   ImportSummary runKitti() {
     kitti_.has_T_body_lidar = !T_body_lidar_.empty();
     kitti_.scans = scans_;
     kitti_.output = output_;
-    return importKitti(kitti_, showProgress);
+    return importKitti(kitti_, [this](double share) { showProgress(share); });
+  }
+
+  void showProgress(double share) {
+    char line[40];
+    std::snprintf(line, sizeof line, "importing %3.0f %%", 100 * share);
+    progress_.show(line);
   }
 
   CLI::App *import_ = nullptr, *clouds_command_ = nullptr, *kitti_command_ = nullptr;
@@ -140,6 +139,7 @@ class ImportCommand : public Command {
   ImportKittiSettings kitti_;
   ScanConversion scans_;
   ImportOutput output_;
+  ProgressLine progress_;
   std::string T_body_lidar_, unit_, reference_;
   bool deskewed_ = false, not_deskewed_ = false, gzip_ = false, json_ = false;
 };

@@ -12,6 +12,7 @@
 #include "paloc/core/errors.h"
 #include "paloc/core/mrpt_pose.h"
 #include "paloc/core/text.h"
+#include "paloc/tools/result_folder.h"
 
 namespace paloc {
 namespace {
@@ -210,7 +211,7 @@ void readOxtsFolder(const fs::path& folder, ImportParts& parts, ImportSummary& s
 
 ImportSummary importKitti(const ImportKittiSettings& settings,
                           const std::function<void(double)>& progress) {
-  checkOutput(settings.output);
+  checkNotThere(settings.output.file, settings.output.overwrite);
   ImportSummary summary;
   ImportParts parts;
   ScanConversion how = settings.scans;

@@ -1,15 +1,11 @@
 #include "paloc/tools/import_recording.h"
 
-#include <mrpt/obs/CObservationIMU.h>
-#include <mrpt/obs/CObservationRobotPose.h>
-
 #include <algorithm>
 
 #include "paloc/core/errors.h"
-#include "paloc/core/mrpt_pose.h"
 #include "paloc/core/text.h"
-#include "paloc/frontends/mrpt_time.h"
 #include "paloc/map/cloud_io.h"
+#include "paloc/tools/motion_observations.h"
 
 namespace paloc {
 namespace {
@@ -21,30 +17,6 @@ struct Entry {
   Kind kind;
   std::size_t index;
 };
-
-mrpt::obs::CObservationIMU imuObservation(const ImuSample& sample, const std::string& label) {
-  using namespace mrpt::obs;
-  CObservationIMU imu;
-  imu.timestamp = toMrptTime(sample.t_ns);
-  imu.sensorLabel = label;
-  imu.set(IMU_X_ACC, sample.acc_body.x());
-  imu.set(IMU_Y_ACC, sample.acc_body.y());
-  imu.set(IMU_Z_ACC, sample.acc_body.z());
-  imu.set(IMU_WX, sample.omega_body.x());
-  imu.set(IMU_WY, sample.omega_body.y());
-  imu.set(IMU_WZ, sample.omega_body.z());
-  return imu;
-}
-
-mrpt::obs::CObservationRobotPose poseObservation(const StampedPose& pose,
-                                                 const std::string& label) {
-  mrpt::obs::CObservationRobotPose observation;
-  observation.timestamp = toMrptTime(pose.t_ns);
-  observation.sensorLabel = label;
-  observation.pose.mean = toMrpt(pose.pose);
-  observation.pose.cov.setZero();  // unknown
-  return observation;
-}
 
 // In order of time, equal stamps once; counts what it changes.
 template <typename Sample>
@@ -109,13 +81,6 @@ void writeScan(const ScanEntry& entry, const ScanConversion& how, RawlogWriter& 
 }
 
 }  // namespace
-
-void checkOutput(const ImportOutput& output) {
-  std::error_code ignored;
-  if (!output.overwrite && std::filesystem::exists(output.file, ignored)) {
-    throw UsageError(text(output.file.string(), " exists: give another name or --overwrite"));
-  }
-}
 
 void writeRecording(ImportParts parts, const ScanConversion& how, const ImportOutput& output,
                     const std::function<void(double)>& progress, ImportSummary& summary) {

@@ -7,6 +7,7 @@
 
 #include "paloc/core/errors.h"
 #include "paloc/core/text.h"
+#include "paloc/tools/quantile.h"
 
 namespace paloc {
 namespace {
@@ -44,10 +45,8 @@ std::string number(double value) {
 template <typename F>
 double medianOf(const std::vector<PointTimeSample>& samples, F&& value) {
   std::vector<double> values;
-  for (const auto& s : samples) values.push_back(value(s));
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  for (const auto& s : samples) values.push_back(static_cast<double>(value(s)));
+  return quantile(std::move(values), 0.5);
 }
 
 [[noreturn]] void failUnclear(const PointTimeSample& s, const std::string& why) {

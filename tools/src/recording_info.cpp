@@ -7,6 +7,7 @@
 #include "paloc/frontends/lidar_decoder.h"
 #include "paloc/frontends/mrpt_time.h"
 #include "paloc/frontends/rawlog_stream.h"
+#include "paloc/tools/quantile.h"
 
 namespace paloc {
 namespace {
@@ -43,15 +44,13 @@ StampSteps stepsOf(const SensorInfo& sensor) {
   }
   std::vector<TimeNs> sorted = sensor.stamps;
   std::sort(sorted.begin(), sorted.end());
-  std::vector<TimeNs> steps;
-  for (std::size_t i = 1; i < sorted.size(); ++i) steps.push_back(sorted[i] - sorted[i - 1]);
-  if (steps.empty()) return result;
-  std::vector<TimeNs> ranked = steps;
-  const auto middle = ranked.begin() + static_cast<std::ptrdiff_t>(ranked.size() / 2);
-  std::nth_element(ranked.begin(), middle, ranked.end());
-  result.period_s = secondsBetween(0, *middle);
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    steps.push_back(secondsBetween(sorted[i - 1], sorted[i]));
+  }
+  result.period_s = quantile(steps, 0.5);
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    const double step = secondsBetween(0, steps[i]);
+    const double step = steps[i];
     if (step <= kGapFactor * result.period_s) continue;
     ++result.gaps;
     if (step <= result.largest_gap_s) continue;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "paloc/core/seconds_text.h"
 #include "paloc/core/text.h"
 #include "paloc/tools/recording_info.h"
 
@@ -14,16 +15,6 @@ namespace {
 std::string fixed(double value, int decimals) {
   char buffer[64];
   std::snprintf(buffer, sizeof(buffer), "%.*f", decimals, value);
-  return buffer;
-}
-
-std::string secondsText(TimeNs t_ns) {
-  const bool negative = t_ns < 0;
-  const auto magnitude = static_cast<std::uint64_t>(negative ? -t_ns : t_ns);
-  char buffer[48];
-  std::snprintf(buffer, sizeof(buffer), "%s%llu.%09llu", negative ? "-" : "",
-                static_cast<unsigned long long>(magnitude / kNsPerSecond),
-                static_cast<unsigned long long>(magnitude % kNsPerSecond));
   return buffer;
 }
 

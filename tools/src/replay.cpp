@@ -98,7 +98,7 @@ void Replay::report(const ReplayObserver& observer, const EventBatch& batch) con
   ReplayProgress progress;
   progress.notes = batch.notes;
   progress.share = batch.share;
-  progress.speed_x_realtime = batch.recording_s / std::max(1e-9, secondsSince(start_));
+  progress.speed_x_realtime = batch.recording_s / std::max(1e-9, secondsSince(reading_since_));
   if (progress.share > kShareToTrust) {
     progress.left_s = secondsSince(reading_since_) * (1 - progress.share) / progress.share;
   }

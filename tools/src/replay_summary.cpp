@@ -111,7 +111,6 @@ std::string summaryText(const ReplayOutcome& outcome) {
   const ReportSummary summary = summaryOf(outcome.result);
   const Verdict verdict = judge(outcome.result, summary, outcome.end);
   std::string out = verdict.status + ": " + verdict.sentence + '\n';
-  for (const std::string& note : outcome.notes) out += "note: " + note + '\n';
   out += formatted("poses            %zu over %.1f s and %.1f m\n", summary.poses,
                    summary.duration_s, summary.length_m);
   out += "map factors      " + std::to_string(summary.map_factors_used) + " used";

@@ -69,10 +69,10 @@ void writeResult(const ResultFolder& folder, const ReplayOptions& options, const
   writeTextFile(folder.file("diagnostics.csv"), diagnosticsCsv(result.diagnostics));
   writeTextFile(folder.file("config_effective.yaml"), dumpConfig(config));
   writeTextFile(folder.file("summary.json"), summaryJson(outcome).dump(2) + '\n');
-  if (!outcome.map_of_scans.empty()) {
+  writeReport(folder.file("report.html"), reportOf(options, config, outcome, command_line));
+  if (!outcome.map_of_scans.empty()) {  // the largest comes last, should the disk become full
     savePly(folder.file("map.ply"), outcome.map_of_scans, "deskewed scans in the map's frame");
   }
-  writeReport(folder.file("report.html"), reportOf(options, config, outcome, command_line));
 }
 
 }  // namespace paloc

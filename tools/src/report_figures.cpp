@@ -3,7 +3,9 @@
 #include <limits>
 #include <numbers>
 
+#include "paloc/core/seconds_text.h"
 #include "paloc/tools/html_text.h"
+#include "paloc/tools/quantile.h"
 #include "paloc/tools/report_sections.h"
 #include "paloc/tools/svg_map_view.h"
 #include "paloc/tools/svg_time_plot.h"
@@ -61,10 +63,7 @@ Highest highestOf(const PlotLine& line) {
 
 double medianOf(std::vector<double> values) {
   std::erase_if(values, [](double v) { return !std::isfinite(v); });
-  if (values.empty()) return kNone;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return values.empty() ? kNone : quantile(std::move(values), 0.5);
 }
 
 std::string summaryOfLine(const PlotLine& line, const std::string& unit) {
@@ -304,12 +303,10 @@ std::string timeSection(const ReportData& data, const ReportSummary& summary) {
   if (data.result.trajectory.empty() && data.result.diagnostics.empty()) return "";
   const TimePlots plots(data.result, summary);
   const TimeNs zero_ns = timeZero(data.result);
-  const std::string decimals = std::to_string(std::abs(zero_ns % kNsPerSecond));
   std::string html =
       "<section aria-labelledby=\"time\">\n<h2 id=\"time\">Over time</h2>\n<p class=\"lead\">"
       "Time is counted from the first frame, " +
-      std::to_string(zero_ns / kNsPerSecond) + '.' + std::string(9 - decimals.size(), '0') +
-      decimals + " s.";
+      secondsText(zero_ns) + " s.";
   if (!summary.stretches.empty()) html += " Stretches that are not good are shaded.";
   html += "</p>\n";
   if (summary.poses > 0) html += plots.flags();

@@ -4,15 +4,10 @@
 #include <cmath>
 #include <map>
 
+#include "paloc/tools/quantile.h"
+
 namespace paloc {
 namespace {
-
-double medianOf(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // A sigma that is not finite is the worst there is, not one to pass over.
 double worstOf(const std::vector<double>& values) {
@@ -36,9 +31,9 @@ void countTrajectory(const std::vector<TrajectoryPoint>& trajectory, ReportSumma
           (point.T_map_body.translation() - trajectory[i - 1].T_map_body.translation()).norm();
     }
   }
-  summary.position_sigma_median_m = medianOf(position);
+  summary.position_sigma_median_m = quantile(position, 0.5);
   summary.position_sigma_worst_m = worstOf(position);
-  summary.rotation_sigma_median_rad = medianOf(rotation);
+  summary.rotation_sigma_median_rad = quantile(rotation, 0.5);
   summary.rotation_sigma_worst_rad = worstOf(rotation);
   summary.stretches = flagStretches(trajectory);
 }
@@ -55,7 +50,7 @@ void countFrames(const std::vector<FrameDiagnostics>& diagnostics, ReportSummary
       ++refusals[frame.match.refusal];
     }
   }
-  summary.residual_median_m = medianOf(residuals);
+  summary.residual_median_m = quantile(residuals, 0.5);
   for (const auto& [refusal, count] : refusals) {
     summary.refusals.emplace_back(toString(refusal), count);
   }

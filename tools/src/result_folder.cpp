@@ -32,11 +32,18 @@ ResultFolder::ResultFolder(const std::filesystem::path& folder, bool overwrite) 
   if (!canWriteTo(folder)) throw IoError(folder.string() + ": cannot write to this folder");
 }
 
+void checkNotThere(const std::filesystem::path& file, bool overwrite) {
+  std::error_code ignored;
+  if (!overwrite && std::filesystem::exists(file, ignored)) {
+    throw UsageError(file.string() + ": is there already; give another name, or --overwrite");
+  }
+}
+
 void writeTextFile(const std::filesystem::path& file, const std::string& content) {
   std::ofstream out(file, std::ios::binary);
   out << content;
   out.close();
-  if (!out) throw IoError(file.string() + ": cannot be written (is the disk full?)");
+  if (!out) throw IoError(file.string() + ": cannot be written completely (is the disk full?)");
 }
 
 }  // namespace paloc

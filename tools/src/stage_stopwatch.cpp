@@ -1,18 +1,12 @@
 #include "paloc/tools/stage_stopwatch.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "paloc/tools/quantile.h"
 
 namespace paloc {
 
-double StageTimes::percentile(double share) const {
-  if (calls_ms.empty()) return 0;
-  std::vector<double> sorted = calls_ms;
-  const auto last = static_cast<double>(sorted.size() - 1);
-  const auto k = static_cast<std::ptrdiff_t>(std::llround(share * last));
-  std::nth_element(sorted.begin(), sorted.begin() + k, sorted.end());
-  return sorted[static_cast<std::size_t>(k)];
-}
+double StageTimes::percentile(double share) const { return quantile(calls_ms, share); }
 
 void StageStopwatch::begin(const char* stage) {
   const auto known = std::find_if(stages_.begin(), stages_.end(),

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "paloc/tools/html_text.h"
+#include "paloc/tools/quantile.h"
 
 namespace paloc {
 namespace {
@@ -135,9 +136,7 @@ double longestStep(const PlotLine& line) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < line.t_s.size(); ++i) steps.push_back(line.t_s[i] - line.t_s[i - 1]);
   if (steps.empty()) return INFINITY;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return std::max(1.0, 5 * *middle);
+  return std::max(1.0, 5 * quantile(std::move(steps), 0.5));
 }
 
 std::string curve(const PlotLine& line, const Scales& s) {

@@ -1,15 +1,14 @@
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "paloc/core/errors.h"
 #include "paloc/core/mrpt_pose.h"
 #include "paloc/tools/commands.h"
+#include "paloc/tools/parse_pose.h"
+#include "paloc/tools/progress_line.h"
 #include "paloc/tools/synth_recording.h"
 #include "paloc/tools/synth_scene.h"
 #include "paloc/tools/synth_sensor.h"
@@ -23,22 +22,6 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
-/// One line that is written anew on a terminal, nothing elsewhere.
-class ProgressLine {
- public:
-  void operator()(double share, const std::string& file) {
-    const int percent = static_cast<int>(100 * share);
-    if (!terminal_ || percent == last_) return;
-    last_ = percent;
-    std::fprintf(stderr, "\rpaloc synth: %3d %%  %-20s", percent, file.c_str());
-    if (percent == 100) std::fputc('\n', stderr);
-  }
-
- private:
-  bool terminal_ = isatty(STDERR_FILENO) != 0;
-  int last_ = -1;
-};
-
 class SynthCommand : public Command {
  public:
   void registerOn(CLI::App& app) override;
@@ -51,8 +34,7 @@ class SynthCommand : public Command {
 
   CLI::App* command_ = nullptr;
   synth::SynthSettings settings_;
-  std::string trajectory_, folder_;
-  std::vector<double> extrinsic_;
+  std::string trajectory_, folder_, extrinsic_;
   double range_noise_m_ = -1;
   bool json_ = false;
 };
@@ -103,11 +85,9 @@ void SynthCommand::addModelOptions() {
   command_->add_option("--map-spacing", settings_.survey.spacing_m, "edge of the map's voxels (m)")
       ->check(CLI::Range(0.005, 1.0))
       ->capture_default_str();
-  command_
-      ->add_option("--T-body-lidar", extrinsic_,
-                   "x,y,z,yaw,pitch,roll (m, degrees) of the LiDAR in the body: p_body = T p_lidar")
-      ->delimiter(',')
-      ->expected(6);
+  command_->add_option(
+      "--T-body-lidar", extrinsic_,
+      "x,y,z,yaw,pitch,roll (m, degrees) of the LiDAR in the body: p_body = T p_lidar");
 }
 
 ExitCode SynthCommand::run() {
@@ -115,14 +95,17 @@ ExitCode SynthCommand::run() {
   settings_.folder = folder_;
   if (range_noise_m_ >= 0) settings_.range_noise_m = range_noise_m_;
   if (!extrinsic_.empty()) {
-    constexpr double kDegree = std::numbers::pi / 180;
-    settings_.T_body_lidar = fromMrpt(
-        mrpt::poses::CPose3D(extrinsic_[0], extrinsic_[1], extrinsic_[2], extrinsic_[3] * kDegree,
-                             extrinsic_[4] * kDegree, extrinsic_[5] * kDegree));
+    settings_.T_body_lidar = fromMrpt(parsePose(extrinsic_, "--T-body-lidar"));
   }
-  ProgressLine progress;
+  ProgressLine line;
+  const auto progress = [&line](double share, const std::string& file) {
+    char text[80];
+    std::snprintf(text, sizeof text, "%3.0f %%  %s", 100 * share, file.c_str());
+    line.show(text);
+  };
   const auto start = std::chrono::steady_clock::now();
-  const synth::SynthSummary summary = writeRecording(settings_, std::ref(progress));
+  const synth::SynthSummary summary = writeRecording(settings_, progress);
+  line.finish();
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
   printSummary(summary, time.count());
   return ExitCode::kGood;

@@ -1,7 +1,5 @@
 #include "paloc/tools/synth_recording.h"
 
-#include <mrpt/obs/CObservationIMU.h>
-#include <mrpt/obs/CObservationRobotPose.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_pipeline.h>
@@ -15,6 +13,8 @@
 #include "paloc/frontends/rawlog_stream.h"
 #include "paloc/frontends/tum_file.h"
 #include "paloc/map/cloud_io.h"
+#include "paloc/tools/motion_observations.h"
+#include "paloc/tools/result_folder.h"
 #include "paloc/tools/synth_scene.h"
 #include "paloc/tools/synth_sensor.h"
 #include "paloc/tools/synth_timeline.h"
@@ -26,40 +26,6 @@ namespace {
 constexpr const char* kFiles[] = {"recording.rawlog", "truth.tum", "truth_imu.csv", "map.ply",
                                   "synth.json"};
 constexpr double kSurveyShare = 0.2;  // of the time, roughly
-
-void claimFolder(const SynthSettings& settings) {
-  std::error_code error;
-  std::filesystem::create_directories(settings.folder, error);
-  if (error) throw IoError(settings.folder.string() + ": cannot be made: " + error.message());
-  for (const char* name : kFiles) {
-    const auto file = settings.folder / name;
-    if (!settings.overwrite && std::filesystem::exists(file)) {
-      throw UsageError(file.string() + " exists already: give another folder, or --overwrite");
-    }
-  }
-}
-
-mrpt::obs::CObservationIMU::Ptr toObservation(const ImuSample& sample) {
-  auto observation = mrpt::obs::CObservationIMU::Create();
-  observation->timestamp = toMrptTime(sample.t_ns);
-  observation->sensorLabel = "imu";
-  observation->set(mrpt::obs::IMU_X_ACC, sample.acc_body.x());
-  observation->set(mrpt::obs::IMU_Y_ACC, sample.acc_body.y());
-  observation->set(mrpt::obs::IMU_Z_ACC, sample.acc_body.z());
-  observation->set(mrpt::obs::IMU_WX, sample.omega_body.x());
-  observation->set(mrpt::obs::IMU_WY, sample.omega_body.y());
-  observation->set(mrpt::obs::IMU_WZ, sample.omega_body.z());
-  return observation;
-}
-
-mrpt::obs::CObservationRobotPose::Ptr toObservation(const StampedPose& odometry) {
-  auto observation = mrpt::obs::CObservationRobotPose::Create();
-  observation->timestamp = toMrptTime(odometry.t_ns);
-  observation->sensorLabel = "odometry";
-  observation->pose.mean = toMrpt(odometry.pose);
-  observation->pose.cov.setZero();  // unknown
-  return observation;
-}
 
 /// Writes the observations in the order of their stamps: scans as they come, and before each the
 /// IMU samples and odometry poses that are older.
@@ -86,9 +52,9 @@ class OrderedRecording {
           odometry_ < timeline_.odometry.size() ? timeline_.odometry[odometry_].t_ns : end_ns;
       if (imu >= end_ns && odometry >= end_ns) return;
       if (imu <= odometry) {
-        writer_.write(*toObservation(timeline_.imu[imu_++].sample));
+        writer_.write(imuObservation(timeline_.imu[imu_++].sample, "imu"));
       } else {
-        writer_.write(*toObservation(timeline_.odometry[odometry_++]));
+        writer_.write(poseObservation(timeline_.odometry[odometry_++], "odometry"));
       }
     }
   }
@@ -160,16 +126,16 @@ SynthSummary writeRecording(const SynthSettings& settings, const SynthProgress& 
   SensorModel sensor = makeSensor(settings.sensor);
   if (settings.range_noise_m) sensor.range_noise_m = *settings.range_noise_m;
   const Timeline timeline = makeTimeline(settings, scene.route, sensor);
-  claimFolder(settings);
+  const ResultFolder folder(settings.folder, settings.overwrite);
   const Raycaster raycaster(scene.mesh);
 
   SynthSummary summary;
   addCounts(timeline, sensor, summary);
-  writeTum(settings.folder / "truth.tum", timeline.truth);
-  writeImuTruth(settings.folder / "truth_imu.csv", timeline.imu);
+  writeTum(folder.file("truth.tum"), timeline.truth);
+  writeImuTruth(folder.file("truth_imu.csv"), timeline.imu);
   const LidarSimulator lidar(sensor, settings.T_body_lidar, scene.mesh, raycaster, timeline.motion,
                              settings.seed);
-  OrderedRecording recording(settings.folder / "recording.rawlog", timeline, settings.gzip);
+  OrderedRecording recording(folder.file("recording.rawlog"), timeline, settings.gzip);
   writeScans(timeline, lidar, recording, summary, progress);
   recording.close();
   if (summary.scans_without_returns > 0) {
@@ -181,10 +147,10 @@ SynthSummary writeRecording(const SynthSettings& settings, const SynthProgress& 
   const PointCloud map =
       survey(settings.survey, scene.mesh, raycaster, scene.survey_stations, settings.seed);
   summary.map_points = map.size();
-  savePly(settings.folder / "map.ply", map, "paloc synth, scene " + settings.scene);
-  writeDescription(settings.folder / "synth.json", settings, scene.description, sensor, summary);
+  savePly(folder.file("map.ply"), map, "paloc synth, scene " + settings.scene);
+  writeDescription(folder.file("synth.json"), settings, scene.description, sensor, summary);
   progress(1, "synth.json");
-  for (const char* name : kFiles) summary.files.push_back(settings.folder / name);
+  for (const char* name : kFiles) summary.files.push_back(folder.file(name));
   return summary;
 }
 

@@ -1,21 +1,15 @@
 #include "paloc/tools/synth_writers.h"
 
-#include <cinttypes>
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "paloc/core/errors.h"
+#include "paloc/core/seconds_text.h"
+#include "paloc/tools/result_folder.h"
 
 namespace paloc::synth {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-void finish(std::ofstream& out, const std::filesystem::path& file) {
-  out.close();
-  if (!out) throw IoError(file.string() + ": cannot be written completely");
-}
 
 Json poseJson(const Pose& pose) {
   const Quat q(pose.rotation);
@@ -26,24 +20,22 @@ Json poseJson(const Pose& pose) {
 }  // namespace
 
 void writeImuTruth(const std::filesystem::path& file, const std::vector<ImuTruth>& imu) {
-  std::ofstream out(file, std::ios::binary);
-  out << "t_s,x_m,y_m,z_m,qx,qy,qz,qw,vx_mps,vy_mps,vz_mps,bax_mps2,bay_mps2,baz_mps2,"
-         "bgx_radps,bgy_radps,bgz_radps\n";
+  std::string csv =
+      "t_s,x_m,y_m,z_m,qx,qy,qz,qw,vx_mps,vy_mps,vz_mps,bax_mps2,bay_mps2,baz_mps2,"
+      "bgx_radps,bgy_radps,bgz_radps\n";
   for (const ImuTruth& row : imu) {
     const Vec3 &p = row.state.T_map_body.position, &v = row.state.v_map;
     const Vec3 &a = row.bias_acc, &g = row.bias_gyro;
     const Quat q(row.state.T_map_body.rotation);
     char line[512];
-    const TimeNs t = row.sample.t_ns;
     std::snprintf(line, sizeof line,
-                  "%" PRId64 ".%09" PRId64
-                  ",%.9f,%.9f,%.9f,%.12f,%.12f,%.12f,%.12f,%.9f,%.9f,%.9f,"
+                  "%s,%.9f,%.9f,%.9f,%.12f,%.12f,%.12f,%.12f,%.9f,%.9f,%.9f,"
                   "%.9f,%.9f,%.9f,%.10f,%.10f,%.10f\n",
-                  t / kNsPerSecond, t % kNsPerSecond, p.x(), p.y(), p.z(), q.x(), q.y(), q.z(),
+                  secondsText(row.sample.t_ns).c_str(), p.x(), p.y(), p.z(), q.x(), q.y(), q.z(),
                   q.w(), v.x(), v.y(), v.z(), a.x(), a.y(), a.z(), g.x(), g.y(), g.z());
-    out << line;
+    csv += line;
   }
-  finish(out, file);
+  writeTextFile(file, csv);
 }
 
 void writeDescription(const std::filesystem::path& file, const SynthSettings& settings,
@@ -111,9 +103,7 @@ void writeDescription(const std::filesystem::path& file, const SynthSettings& se
       {"truth.tum", "T_map_body at the end of each scan"},
       {"truth_imu.csv", "pose and velocity in the map, and IMU biases, at each IMU stamp"}};
   json["notes"] = summary.notes;
-  std::ofstream out(file, std::ios::binary);
-  out << json.dump(2) << '\n';
-  finish(out, file);
+  writeTextFile(file, json.dump(2) + '\n');
 }
 
 }  // namespace paloc::synth

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "paloc/tools/quantile.h"
+
 namespace paloc {
 namespace {
 
@@ -85,12 +87,11 @@ Association associateByTime(const std::vector<StampedPose>& reference,
 }
 
 double medianStep(const std::vector<TimeNs>& stamps) {
-  if (stamps.size() < 2) return 0;
-  std::vector<TimeNs> steps;
-  for (std::size_t i = 1; i < stamps.size(); ++i) steps.push_back(stamps[i] - stamps[i - 1]);
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return secondsBetween(0, *middle);
+  std::vector<double> steps_s;
+  for (std::size_t i = 1; i < stamps.size(); ++i) {
+    steps_s.push_back(secondsBetween(stamps[i - 1], stamps[i]));
+  }
+  return quantile(std::move(steps_s), 0.5);
 }
 
 }  // namespace paloc

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "paloc/core/mrpt_pose.h"
+#include "paloc/core/seconds_text.h"
 
 namespace paloc {
 namespace {
@@ -64,15 +65,6 @@ std::string toString(DirectionClass cls) {
       return "none";
   }
   return "unknown";
-}
-
-std::string secondsText(TimeNs t_ns) {
-  const TimeNs magnitude = t_ns < 0 ? -t_ns : t_ns;
-  char buffer[48];
-  std::snprintf(buffer, sizeof buffer, "%s%lld.%09lld", t_ns < 0 ? "-" : "",
-                static_cast<long long>(magnitude / kNsPerSecond),
-                static_cast<long long>(magnitude % kNsPerSecond));
-  return buffer;
 }
 
 std::vector<StampedPose> stampedPoses(const std::vector<TrajectoryPoint>& trajectory) {

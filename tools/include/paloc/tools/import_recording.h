@@ -44,9 +44,6 @@ struct ImportSummary {
   bool complete() const { return not_used.empty(); }
 };
 
-/// Throws UsageError if the output exists and may not be overwritten.
-void checkOutput(const ImportOutput& output);
-
 /// Writes all observations in order of time: the streams are merged by stamp. Scans that cannot be
 /// read are counted in `summary`. `progress` is told the share that is done. Throws IoError if no
 /// scan can be read, or the rawlog cannot be written.

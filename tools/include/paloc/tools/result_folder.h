@@ -19,6 +19,9 @@ class ResultFolder {
   std::filesystem::path folder_;
 };
 
+/// Throws UsageError if a file is there already and `overwrite` is not set.
+void checkNotThere(const std::filesystem::path& file, bool overwrite);
+
 /// Writes a whole text file. Throws IoError if it cannot be written completely.
 void writeTextFile(const std::filesystem::path& file, const std::string& content);
 

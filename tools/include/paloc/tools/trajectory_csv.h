@@ -22,7 +22,4 @@ std::string diagnosticsCsv(const std::vector<FrameDiagnostics>& diagnostics);
 /// "full", "partial" or "none".
 std::string toString(DirectionClass cls);
 
-/// An instant as decimal seconds with nine decimals, exact.
-std::string secondsText(TimeNs t_ns);
-
 }  // namespace paloc
