@@ -20,24 +20,23 @@ PriorFactor wideAnchor(const State& state) {
   return PriorFactor::fromSigmas(state, sigma);
 }
 
+UpdateSummary refused() {
+  UpdateSummary summary;
+  summary.status = UpdateSummary::Status::kRefused;
+  return summary;
+}
+
 }  // namespace
 
 FixedLagSmoother::FixedLagSmoother(const SmootherSettings& settings) : settings_(settings) {}
 
 UpdateSummary FixedLagSmoother::add(ChainNode node) {
-  UpdateSummary refused;
-  refused.status = UpdateSummary::Status::kRefused;
-  if (!finite(node.state) || (!nodes_.empty() && node.t_ns <= nodes_.back().t_ns)) return refused;
-
-  const ChainNode* previous = nodes_.empty() ? nullptr : &nodes_.back();
-  ChainBlock block = linearize(previous, node);
+  if (!finite(node.state) || (!nodes_.empty() && node.t_ns <= nodes_.back().t_ns)) return refused();
   const std::uint64_t dropped_before = repairs_.factors_dropped;
-  if (!block.usable()) {
-    dropUnusableFactors(node, previous);
-    block = linearize(previous, node);
-  }
+  const ChainNode* previous = nodes_.empty() ? nullptr : &nodes_.back();
+  blocks_.push_back(usableBlock(previous, node));
   nodes_.push_back(std::move(node));
-  blocks_.push_back(block);
+  ids_.push_back(next_id_++);
   delta_.push_back(StateVector::Zero());
   solver_.append();
   UpdateSummary summary = update(nodes_.size() < 2 ? 0 : nodes_.size() - 2);
@@ -50,19 +49,55 @@ UpdateSummary FixedLagSmoother::add(ChainNode node) {
 }
 
 UpdateSummary FixedLagSmoother::addFactor(NodeId id, NodeFactor factor) {
-  UpdateSummary refused;
-  refused.status = UpdateSummary::Status::kRefused;
-  if (id < first_id_ || id >= first_id_ + nodes_.size()) return refused;
-  const std::size_t k = id - first_id_;
+  const auto found = std::find(ids_.begin(), ids_.end(), id);
+  if (found == ids_.end()) {
+    refused_as_too_old_ += id < next_id_ ? 1 : 0;
+    return refused();
+  }
+  const auto k = static_cast<std::size_t>(found - ids_.begin());
   nodes_[k].node_factors.push_back(std::move(factor));
   ChainBlock block = linearize(k == 0 ? nullptr : &nodes_[k - 1], nodes_[k]);
   if (!block.usable()) {
     nodes_[k].node_factors.pop_back();
     ++repairs_.factors_dropped;
-    return refused;
+    return refused();
   }
   blocks_[k] = block;
   return update(k);
+}
+
+UpdateSummary FixedLagSmoother::insert(ChainNode node, std::vector<EdgeFactor> edge_to_next) {
+  if (!finite(node.state) || nodes_.empty() || node.t_ns >= nodes_.back().t_ns) return refused();
+  if (node.t_ns < nodes_.front().t_ns) {
+    ++refused_as_too_old_;
+    return refused();
+  }
+  const auto next =
+      std::upper_bound(nodes_.begin(), nodes_.end(), node.t_ns,
+                       [](TimeNs t, const ChainNode& other) { return t < other.t_ns; });
+  const auto k = next - nodes_.begin();  // at least 1: the front is not after it
+  const auto place = static_cast<std::size_t>(k);
+  if (nodes_[place - 1].t_ns == node.t_ns) return refused();
+
+  const std::uint64_t dropped_before = repairs_.factors_dropped;
+  blocks_.insert(blocks_.begin() + k, usableBlock(&nodes_[place - 1], node));
+  nodes_.insert(next, std::move(node));
+  nodes_[place + 1].edge_factors = std::move(edge_to_next);
+  blocks_[place + 1] = usableBlock(&nodes_[place], nodes_[place + 1]);
+  ids_.insert(ids_.begin() + k, next_id_++);
+  delta_.insert(delta_.begin() + k, StateVector::Zero());
+  solver_.append();  // the blocks from here on move up by one
+  UpdateSummary summary = update(place - 1);
+  if (repairs_.factors_dropped != dropped_before) summary.status = UpdateSummary::Status::kRepaired;
+  return summary;
+}
+
+// The block of a node, after factors that cannot be used have been dropped from it.
+ChainBlock FixedLagSmoother::usableBlock(const ChainNode* previous, ChainNode& node) {
+  ChainBlock block = linearize(previous, node);
+  if (block.usable()) return block;
+  dropUnusableFactors(node, previous);
+  return linearize(previous, node);
 }
 
 UpdateSummary FixedLagSmoother::update(std::size_t first_changed) {
@@ -154,9 +189,9 @@ void FixedLagSmoother::reanchor(UpdateSummary& summary) {
   ++repairs_.reanchored;
   ChainNode newest = nodes_.back();
   for (std::size_t k = 0; k + 1 < nodes_.size(); ++k) {
-    left_.push_back({first_id_ + k, nodes_[k].t_ns, nodes_[k].state, StateMatrix::Zero()});
+    left_.push_back({ids_[k], nodes_[k].t_ns, nodes_[k].state, StateMatrix::Zero()});
   }
-  first_id_ += nodes_.size() - 1;
+  ids_.assign(1, NodeId(ids_.back()));
   newest.edge_factors.clear();
   newest.node_factors.assign(1, wideAnchor(newest.state));
   nodes_.assign(1, newest);
@@ -188,7 +223,7 @@ void FixedLagSmoother::dropUnusableFactors(ChainNode& node, const ChainNode* pre
 }
 
 void FixedLagSmoother::marginalizeOldest() {
-  NodeEstimate left{first_id_, nodes_[0].t_ns, estimate(0), StateMatrix::Zero()};
+  NodeEstimate left{ids_.front(), nodes_[0].t_ns, estimate(0), StateMatrix::Zero()};
   if (settings_.covariance_of_leaving) left.covariance = solver_.covariance(0);
   left_.push_back(left);
 
@@ -204,7 +239,7 @@ void FixedLagSmoother::marginalizeOldest() {
   nodes_.pop_front();
   blocks_.pop_front();
   delta_.erase(delta_.begin());
-  ++first_id_;
+  ids_.pop_front();
   solver_.dropFront();
   // With the edge gone and the prior in its place, the node's own share is what it was and the
   // elimination.
@@ -231,7 +266,7 @@ std::vector<NodeEstimate> FixedLagSmoother::window(bool with_covariances) const 
   if (with_covariances) covariances = solver_.covariances();
   std::vector<NodeEstimate> result;
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
-    result.push_back({first_id_ + k, nodes_[k].t_ns, estimate(k),
+    result.push_back({ids_[k], nodes_[k].t_ns, estimate(k),
                       with_covariances ? covariances[k] : StateMatrix::Zero()});
   }
   return result;

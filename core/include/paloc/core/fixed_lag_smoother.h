@@ -11,7 +11,7 @@
 
 namespace paloc {
 
-/// Names a node for as long as it is in the window; counts up from 0.
+/// Names a node for as long as it is in the window; counts up from 0 in the order of arrival.
 using NodeId = std::uint64_t;
 
 /// An estimate of one node.
@@ -45,12 +45,21 @@ class PALOC_EXPORT FixedLagSmoother {
   UpdateSummary add(ChainNode node);
 
   /// Adds a factor to a node that is still in the window (data that came late, but within the lag).
-  /// Refused if the node has left.
+  /// Refused, and counted, if the node has left.
   UpdateSummary addFactor(NodeId id, NodeFactor factor);
+
+  /// Puts a node that came late into its place between two nodes of the window: `node.edge_factors`
+  /// lead to it from the one before, `edge_to_next` replaces the factors between the two. Refused
+  /// if there is a node at its time already, or none after it; refused, and counted, if it is older
+  /// than the window.
+  UpdateSummary insert(ChainNode node, std::vector<EdgeFactor> edge_to_next);
+
+  /// Nodes and factors that came when their place had left the window.
+  std::uint64_t refusedAsTooOld() const { return refused_as_too_old_; }
 
   bool empty() const { return nodes_.empty(); }
   std::size_t size() const { return nodes_.size(); }
-  NodeId newestId() const { return first_id_ + nodes_.size() - 1; }
+  NodeId newestId() const { return ids_.back(); }
 
   /// The newest node's estimate with its covariance.
   NodeEstimate newest() const;
@@ -66,6 +75,7 @@ class PALOC_EXPORT FixedLagSmoother {
   const RepairCounts& repairs() const { return repairs_; }
 
  private:
+  ChainBlock usableBlock(const ChainNode* previous, ChainNode& node);
   UpdateSummary update(std::size_t first_changed);
   State estimate(std::size_t k) const { return boxplus(nodes_[k].state, delta_[k]); }
   bool mustRelinearize(const StateVector& delta) const;
@@ -78,13 +88,15 @@ class PALOC_EXPORT FixedLagSmoother {
   void marginalizeOldest();
 
   SmootherSettings settings_;
-  NodeId first_id_ = 0;
+  NodeId next_id_ = 0;
+  std::deque<NodeId> ids_;  // of the nodes; in order of time, which is not that of arrival
   std::deque<ChainNode> nodes_;
   std::deque<ChainBlock> blocks_;  // of each node, at the linearization points
   std::vector<StateVector> delta_;
   ChainSolver solver_;
   std::vector<NodeEstimate> left_;
   RepairCounts repairs_;
+  std::uint64_t refused_as_too_old_ = 0;
 };
 
 }  // namespace paloc
