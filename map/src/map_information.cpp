@@ -60,7 +60,11 @@ struct PatchGroup {
   }
 };
 
-bool any(const Vec4i& lanes) { return (lanes[0] | lanes[1] | lanes[2] | lanes[3]) != 0; }
+bool any(const Vec4i& lanes) {
+  using Vec2l = std::int64_t __attribute__((vector_size(16)));
+  const auto halves = reinterpret_cast<Vec2l>(lanes);  // the same bits
+  return (halves[0] | halves[1]) != 0;
+}
 
 // The first of the patches that the row lies on, or their number.
 std::size_t firstPatch(const PlaneRow& row, const std::vector<Patch>& patches,

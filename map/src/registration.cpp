@@ -200,11 +200,24 @@ void Registration::weigh(double scale) {
   }
 }
 
+// The rows' patches; those of the same points remain from step to step, since by then these are
+// small against a patch.
+void Registration::assignPatchesOnce() {
+  if (patched_ != matched_) {
+    patched_ = matched_;
+    shared_errors_.patch_variances =
+        assignPatches(rows_, settings_.plane_patch_m, settings_.plane_bias_m);
+    patches_.resize(rows_.size());
+    for (std::size_t k = 0; k < rows_.size(); ++k) patches_[k] = rows_[k].patch;
+    return;
+  }
+  for (std::size_t k = 0; k < rows_.size(); ++k) rows_[k].patch = patches_[k];
+}
+
 NormalEquations Registration::equations(bool shared) {
   if (shared) {
-    return sharedErrorEquations(
-        rows_, {assignPatches(rows_, settings_.plane_patch_m, settings_.plane_bias_m),
-                settings_.range_bias_m});
+    assignPatchesOnce();
+    return sharedErrorEquations(rows_, shared_errors_);
   }
   std::vector<NormalEquations> parts(chunkCount(rows_.size(), kChunk));
   forEachChunk(arena_, rows_.size(), kChunk,
@@ -221,8 +234,8 @@ NormalEquations Registration::equations(bool shared) {
 
 void Registration::summarize(double scale, Alignment& alignment) {
   alignment.near = near_;
-  alignment.matched = static_cast<int>(rows_.size());
-  alignment.inliers = 0;
+  alignment.matched = static_cast<int>(matched_.size());
+  if (rows_.empty()) return;
   double squares = 0;
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     const double residual = std::abs(rows_[k].residual);
@@ -242,23 +255,20 @@ Alignment Registration::align(const Pose& start, const AlignSchedule& schedule) 
   Pose pose = start;
   Anchors anchors;
   bool shared = false;
+  double scale = 1;
   rows_.clear();
+  patched_.clear();
   matches_.assign(points_.size(), {});
   for (int i = 0; i < schedule.max_iterations; ++i) {
     const bool first = i < schedule.first_iterations;
     associate(pose, first ? schedule.first_gate_m : schedule.gate_m, i);
     alignment.iterations = i + 1;
-    if (matched_.size() < kMinRows) {
-      alignment.near = near_;
-      alignment.matched = static_cast<int>(matched_.size());
-      break;
-    }
+    if (matched_.size() < kMinRows) break;
     linearize(pose);
-    const double scale = robustScale();
+    scale = robustScale();
     weigh(scale);
     NormalEquations system = equations(shared);
     alignment.information_body = system.information;
-    summarize(scale, alignment);
     if (alignment.converged) break;
     if (i == 0 || i == schedule.first_iterations) {
       anchors.hold(observeDirections(rows_, system.information, noise()));
@@ -272,6 +282,7 @@ Alignment Registration::align(const Pose& start, const AlignSchedule& schedule) 
     alignment.converged = shared || !schedule.shared_errors;
     shared = schedule.shared_errors;
   }
+  summarize(scale, alignment);
   alignment.T_local_body = pose;
   return alignment;
 }

@@ -39,7 +39,9 @@ struct Alignment {
 class Registration {
  public:
   Registration(const PriorMap& map, const MatcherSettings& settings, tbb::task_arena& arena)
-      : map_(map), settings_(settings), arena_(arena) {}
+      : map_(map), settings_(settings), arena_(arena) {
+    shared_errors_.range_bias_m = settings.range_bias_m;
+  }
 
   /// The points (body frame, m) to be registered next and where their rays start.
   void setPoints(std::vector<Point3f> points_body, const Vec3& sensor_position_body);
@@ -76,6 +78,7 @@ class Registration {
   PlaneRow rowOf(std::size_t point, const Mat3& R_body_local, const Pose& pose) const;
   double robustScale();
   void weigh(double scale);
+  void assignPatchesOnce();
   NormalEquations equations(bool shared);
   void summarize(double scale, Alignment& alignment);
 
@@ -89,6 +92,9 @@ class Registration {
   std::vector<PlaneRow> rows_;          // one per matched point
   std::vector<double> sigmas_;          // standard deviation of each row's residual, unweighted
   std::vector<double> scratch_;
+  std::vector<std::uint32_t> patched_;  // the matched points that have the patches below
+  std::vector<int> patches_;            // of the rows
+  SharedErrors shared_errors_;
   float reach_ = 0;  // of the searches in hand (m)
   int near_ = 0;
 };
