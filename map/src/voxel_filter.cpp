@@ -35,20 +35,6 @@ std::vector<Point3f> pointsAt(std::span<const Point3f> points,
 
 }  // namespace
 
-// The number of the cell of a voxel, made if it is new.
-std::uint32_t VoxelFilter::cellOf(std::uint64_t key) {
-  if (2 * (cells_.size() + 1) > slots_.size()) growTable();
-  const std::uint64_t mask = slots_.size() - 1;
-  for (std::uint64_t at = hashKey(key) & mask;; at = (at + 1) & mask) {
-    if (slots_[at] == kFree) {
-      slots_[at] = static_cast<std::uint32_t>(cells_.size());
-      cells_.push_back({.key = key});
-      return slots_[at];
-    }
-    if (cells_[slots_[at]].key == key) return slots_[at];
-  }
-}
-
 // The table follows the number of voxels, not that of points: it then fits in the cache.
 void VoxelFilter::growTable() {
   slots_.assign(std::max(kFewestSlots, 2 * slots_.size()), kFree);
@@ -68,11 +54,18 @@ void VoxelFilter::hashPoints(std::span<const Point3f> points, double voxel_m) {
   const double inverse = 1 / voxel_m;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point3f& p = points[i];
-    const std::uint32_t index =
-        cellOf(voxelIndex(p.x, inverse) | voxelIndex(p.y, inverse) << kVoxelBits |
-               voxelIndex(p.z, inverse) << (2 * kVoxelBits));
-    cell_of_[i] = index;
-    Cell& cell = cells_[index];
+    const std::uint64_t key = voxelIndex(p.x, inverse) | voxelIndex(p.y, inverse) << kVoxelBits |
+                              voxelIndex(p.z, inverse) << (2 * kVoxelBits);
+    if (2 * (cells_.size() + 1) > slots_.size()) growTable();
+    const std::uint64_t mask = slots_.size() - 1;
+    std::uint64_t at = hashKey(key) & mask;
+    while (slots_[at] != kFree && cells_[slots_[at]].key != key) at = (at + 1) & mask;
+    if (slots_[at] == kFree) {
+      slots_[at] = static_cast<std::uint32_t>(cells_.size());
+      cells_.push_back({.key = key});
+    }
+    cell_of_[i] = slots_[at];
+    Cell& cell = cells_[slots_[at]];
     cell.x += static_cast<double>(p.x);
     cell.y += static_cast<double>(p.y);
     cell.z += static_cast<double>(p.z);

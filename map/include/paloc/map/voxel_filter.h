@@ -38,7 +38,6 @@ class PALOC_EXPORT VoxelFilter {
     double best_sq = std::numeric_limits<double>::max();
   };
 
-  std::uint32_t cellOf(std::uint64_t key);
   void growTable();
   void hashPoints(std::span<const Point3f> points, double voxel_m);
 
