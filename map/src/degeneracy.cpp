@@ -59,26 +59,38 @@ struct Support {
   double signal = 0, noise_mean = 0, variance = 0;
 };
 
-Support measureSupport(std::span<const PlaneRow> rows, const Vec3& v, const Vec3& w,
-                       const DegeneracyNoise& noise) {
-  Support support;
+/// A small motion: translation v and rotation w in the body frame.
+struct Motion {
+  Vec3 v = Vec3::Zero(), w = Vec3::Zero();
+};
+
+// Of three motions in one pass: the rows do not fit in the first cache.
+std::array<Support, 3> measureSupport(std::span<const PlaneRow> rows,
+                                      const std::array<Motion, 3>& motions,
+                                      const DegeneracyNoise& noise) {
+  std::array<Support, 3> supports;
   const double point_var = noise.point_sigma_m * noise.point_sigma_m;
   const double floor_var = noise.normal_sigma_rad * noise.normal_sigma_rad;
   for (const PlaneRow& row : rows) {
-    const Vec3 motion = v + w.cross(row.point_body);
-    const double along = row.normal_body.dot(motion);
-    const double along_sq = along * along, motion_sq = motion.squaredNorm();
     const double normal_var = floor_var + row.normal_sigma * row.normal_sigma;
-    const double noise_var = normal_var * std::max(motion_sq - along_sq, 0.0) +
-                             point_var * w.cross(row.normal_body).squaredNorm();
     const double weight = 1 / row.variance;
-    support.signal += weight * along_sq;
-    support.noise_mean += weight * noise_var;
-    // Of the square of a normal variable with mean `along`.
-    support.variance += weight * weight * noise_var * (2 * noise_var + 4 * along_sq);
-    if (along_sq > kConstrainingCosine * kConstrainingCosine * motion_sq) support.count += 1;
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+      const Motion& m = motions[i];
+      Support& support = supports[i];
+      const Vec3 motion = m.v + m.w.cross(row.point_body);
+      const double along = row.normal_body.dot(motion);
+      const double along_sq = along * along, motion_sq = motion.squaredNorm();
+      const double noise_var = normal_var * std::max(motion_sq - along_sq, 0.0) +
+                               point_var * m.w.cross(row.normal_body).squaredNorm();
+      support.signal += weight * along_sq;
+      support.noise_mean += weight * noise_var;
+      // Of the square of a normal variable with mean `along`.
+      support.variance += weight * weight * noise_var * (2 * noise_var + 4 * along_sq);
+      // Added as a number: which rows constrain cannot be foreseen by a branch.
+      support.count += along_sq > kConstrainingCosine * kConstrainingCosine * motion_sq ? 1.0 : 0.0;
+    }
   }
-  return support;
+  return supports;
 }
 
 double informativeProbability(const Support& support) {
@@ -106,13 +118,18 @@ void observeKind(std::span<const PlaneRow> rows, const Mat6& information,
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(schurComplement(information, own));
   const Mat3 follow = followingMotion(rows, information, own, noise);
   std::array<double, 3> counts{}, eigenvalues{};
+  std::array<Motion, 3> motions;
   for (int i = 0; i < 3; ++i) {
     const Vec3 axis = solver.eigenvectors().col(i);
     const Vec3 other = follow * axis;
-    const Support support = own == kTranslation ? measureSupport(rows, axis, other, noise)
-                                                : measureSupport(rows, other, axis, noise);
+    motions[static_cast<std::size_t>(i)] =
+        own == kTranslation ? Motion{axis, other} : Motion{other, axis};
+  }
+  const std::array<Support, 3> supports = measureSupport(rows, motions, noise);
+  for (int i = 0; i < 3; ++i) {
+    const Support& support = supports[static_cast<std::size_t>(i)];
     MatchDirection& direction = directions[static_cast<std::size_t>(own + i)];
-    direction.axis_body = axis;
+    direction.axis_body = solver.eigenvectors().col(i);
     direction.probability = informativeProbability(support);
     eigenvalues[static_cast<std::size_t>(i)] = std::max(solver.eigenvalues()[i], 0.0);
     counts[static_cast<std::size_t>(i)] = support.count;

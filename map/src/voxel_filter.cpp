@@ -12,6 +12,7 @@ namespace {
 // However large, voxels that meet at the origin part the points about it into eight.
 constexpr std::size_t kOctants = 8;
 constexpr std::size_t kFewestSlots = 1 << 12;
+constexpr std::size_t kSlotsACell = 4;  // at least: most searches then end at the first slot
 constexpr std::uint32_t kFree = std::numeric_limits<std::uint32_t>::max();
 // So many times the points wanted are enough to choose from.
 constexpr std::size_t kEnoughChoice = 8;
@@ -35,8 +36,9 @@ std::vector<Point3f> pointsAt(std::span<const Point3f> points,
 
 }  // namespace
 
-// The table follows the number of voxels, not that of points: it then fits in the cache.
-void VoxelFilter::growTable() {
+// The table follows the number of voxels, not that of points: it then fits in the cache. Returns
+// the mask that takes a hash to a slot.
+std::uint64_t VoxelFilter::growTable() {
   slots_.assign(std::max(kFewestSlots, 2 * slots_.size()), kFree);
   const std::uint64_t mask = slots_.size() - 1;
   for (std::uint32_t cell = 0; cell < cells_.size(); ++cell) {
@@ -44,6 +46,7 @@ void VoxelFilter::growTable() {
     while (slots_[at] != kFree) at = (at + 1) & mask;
     slots_[at] = cell;
   }
+  return mask;
 }
 
 // Gives each point its cell, and each cell the sum of its points.
@@ -51,21 +54,22 @@ void VoxelFilter::hashPoints(std::span<const Point3f> points, double voxel_m) {
   std::fill(slots_.begin(), slots_.end(), kFree);
   cell_of_.resize(points.size());
   cells_.clear();
+  std::uint64_t mask = slots_.empty() ? growTable() : slots_.size() - 1;
   const double inverse = 1 / voxel_m;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point3f& p = points[i];
     const std::uint64_t key = voxelIndex(p.x, inverse) | voxelIndex(p.y, inverse) << kVoxelBits |
                               voxelIndex(p.z, inverse) << (2 * kVoxelBits);
-    if (2 * (cells_.size() + 1) > slots_.size()) growTable();
-    const std::uint64_t mask = slots_.size() - 1;
     std::uint64_t at = hashKey(key) & mask;
     while (slots_[at] != kFree && cells_[slots_[at]].key != key) at = (at + 1) & mask;
-    if (slots_[at] == kFree) {
-      slots_[at] = static_cast<std::uint32_t>(cells_.size());
+    std::uint32_t index = slots_[at];
+    if (index == kFree) {
+      index = slots_[at] = static_cast<std::uint32_t>(cells_.size());
       cells_.push_back({.key = key});
+      if (kSlotsACell * cells_.size() > slots_.size()) mask = growTable();
     }
-    cell_of_[i] = slots_[at];
-    Cell& cell = cells_[slots_[at]];
+    cell_of_[i] = index;
+    Cell& cell = cells_[index];
     cell.x += static_cast<double>(p.x);
     cell.y += static_cast<double>(p.y);
     cell.z += static_cast<double>(p.z);

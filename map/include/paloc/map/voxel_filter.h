@@ -38,10 +38,11 @@ class PALOC_EXPORT VoxelFilter {
     double best_sq = std::numeric_limits<double>::max();
   };
 
-  void growTable();
+  std::uint64_t growTable();
   void hashPoints(std::span<const Point3f> points, double voxel_m);
 
-  std::vector<std::uint32_t> slots_;  // cells, by hash; a power of two, at most half of them taken
+  std::vector<std::uint32_t>
+      slots_;  // cells, by hash; a power of two, at most a quarter of them taken
   std::vector<std::uint32_t> cell_of_;  // of each point
   std::vector<Cell> cells_;
 };
