@@ -98,9 +98,11 @@ void Replay::report(const ReplayObserver& observer, const EventBatch& batch) con
   ReplayProgress progress;
   progress.notes = batch.notes;
   progress.share = batch.share;
-  progress.speed_x_realtime = batch.recording_s / std::max(1e-9, secondsSince(reading_since_));
+  const double elapsed_s = secondsSince(reading_since_);
+  // What was read ahead while the map was loaded would make the first figures absurd.
+  if (elapsed_s > 1) progress.speed_x_realtime = batch.recording_s / elapsed_s;
   if (progress.share > kShareToTrust) {
-    progress.left_s = secondsSince(reading_since_) * (1 - progress.share) / progress.share;
+    progress.left_s = elapsed_s * (1 - progress.share) / progress.share;
   }
   progress.frames = frames_;
   progress.last_frame = generator_->lastFrame();

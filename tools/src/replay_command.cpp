@@ -46,9 +46,12 @@ std::string matchText(const MapMatch& match) {
 
 std::string progressText(const ReplayProgress& p) {
   char buffer[100];
-  std::snprintf(buffer, sizeof buffer, "%3.0f %%  %.1f x real time", 100 * p.share,
-                p.speed_x_realtime);
+  std::snprintf(buffer, sizeof buffer, "%3.0f %%", 100 * p.share);
   std::string text = buffer;
+  if (p.speed_x_realtime > 0) {
+    std::snprintf(buffer, sizeof buffer, "  %.1f x real time", p.speed_x_realtime);
+    text += buffer;
+  }
   if (p.left_s) {
     std::snprintf(buffer, sizeof buffer, "  %.0f s left", *p.left_s);
     text += buffer;

@@ -98,10 +98,12 @@ ExitCode SynthCommand::run() {
     settings_.T_body_lidar = fromMrpt(parsePose(extrinsic_, "--T-body-lidar"));
   }
   ProgressLine line;
-  const auto progress = [&line](double share, const std::string& file) {
+  std::string last_file;
+  const auto progress = [&](double share, const std::string& file) {
     char text[80];
     std::snprintf(text, sizeof text, "%3.0f %%  %s", 100 * share, file.c_str());
-    line.show(text);
+    line.show(text, file != last_file);
+    last_file = file;
   };
   const auto start = std::chrono::steady_clock::now();
   const synth::SynthSummary summary = writeRecording(settings_, progress);

@@ -10,8 +10,9 @@ namespace paloc {
 class ProgressLine {
  public:
   ProgressLine();
-  /// Shows `text`, unless it was updated a moment ago.
-  void show(const std::string& text);
+  /// Shows `text`, unless it was updated a moment ago. What will stand for long, as a stage that
+  /// begins, is shown `at_once` on a terminal.
+  void show(const std::string& text, bool at_once = false);
   /// Shows a line that stays, above this one.
   void say(const std::string& text);
   /// Ends the line, so that other output starts on a fresh one.
