@@ -31,7 +31,7 @@ class PALOC_EXPORT StillnessDetector {
 
  private:
   struct StampedOdometry {
-    TimeNs t_ns;
+    TimeNs t_ns = 0;
     Pose T_odom_body;
   };
 

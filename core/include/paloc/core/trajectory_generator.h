@@ -50,8 +50,8 @@ class PALOC_EXPORT TrajectoryGenerator {
 
  private:
   struct HistoryNode {
-    ChainNode node;                 // with the factors as they were given, for the batch
-    std::size_t diagnostics_index;  // its row
+    ChainNode node;                     // with the factors as they were given, for the batch
+    std::size_t diagnostics_index = 0;  // its row
   };
 
   void addImu(const ImuSample& sample);
