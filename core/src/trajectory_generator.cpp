@@ -251,6 +251,7 @@ TrajectoryPoint TrajectoryGenerator::pointOf(const NodeEstimate& estimate,
   point.v_sigma = sigma(tangent::kVelocity);
   point.bias_acc_sigma = sigma(tangent::kBiasAcc);
   point.bias_gyro_sigma = sigma(tangent::kBiasGyro);
+  point.gravity_sigma = sigma(tangent::kGravity);
   const MapMatch& match = diagnostics_[history_[history_index].diagnostics_index].match;
   for (std::size_t d = 0; d < 6; ++d) {
     point.directions[d] = match.accepted() ? match.directions[d].cls : DirectionClass::kNone;

@@ -1,6 +1,7 @@
 #include "paloc/tools/replay_summary.h"
 
 #include <cstdio>
+#include <numbers>
 
 #include "paloc/tools/peak_memory.h"
 #include "paloc/tools/report_summary.h"
@@ -30,6 +31,8 @@ nlohmann::ordered_json refusalsJson(const ReportSummary& summary) {
   for (const auto& [reason, count] : summary.refusals) json[reason] = count;
   return json;
 }
+
+double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 double speedOf(const ReplayOutcome& outcome) {
   return outcome.wall_s > 0 ? outcome.recording_s / outcome.wall_s : 0;
@@ -82,29 +85,32 @@ nlohmann::ordered_json summaryJson(const ReplayOutcome& outcome) {
                       {"reason", row.reason},
                       {"count", row.count}});
   }
-  return {{"status", verdict.status},
-          {"sentence", verdict.sentence},
-          {"poses", result.trajectory.size()},
-          {"frames_before_start", result.frames_before_start},
-          {"duration_s", summary.duration_s},
-          {"length_m", summary.length_m},
-          {"recording_s", outcome.recording_s},
-          {"wall_s", outcome.wall_s},
-          {"speed_x_realtime", speedOf(outcome)},
-          {"peak_rss_mb", peakRssMb()},
-          {"flags", flagsJson(summary)},
-          {"map", {{"points", outcome.prior_map_points}, {"planar", outcome.prior_map_planar}}},
-          {"map_factors", {{"used", summary.map_factors_used}, {"refused", refusalsJson(summary)}}},
-          {"unused", unused},
-          {"notes", outcome.notes},
-          {"problems", outcome.end.problems},
-          {"damage", outcome.end.damage},
-          {"interrupted", outcome.end.interrupted},
-          {"repairs",
-           {{"damped", result.repairs.damped},
-            {"factors_dropped", result.repairs.factors_dropped},
-            {"reanchored", result.repairs.reanchored}}},
-          {"stage_ms", stagesJson(outcome.stages)}};
+  return {
+      {"status", verdict.status},
+      {"sentence", verdict.sentence},
+      {"poses", result.trajectory.size()},
+      {"frames_before_start", result.frames_before_start},
+      {"duration_s", summary.duration_s},
+      {"length_m", summary.length_m},
+      {"recording_s", outcome.recording_s},
+      {"wall_s", outcome.wall_s},
+      {"speed_x_realtime", speedOf(outcome)},
+      {"peak_rss_mb", peakRssMb()},
+      {"flags", flagsJson(summary)},
+      {"frames_at_rest", summary.frames_at_rest},
+      {"map_tilt_rad", {{"estimate", summary.map_tilt_rad}, {"sigma", summary.map_tilt_sigma_rad}}},
+      {"map", {{"points", outcome.prior_map_points}, {"planar", outcome.prior_map_planar}}},
+      {"map_factors", {{"used", summary.map_factors_used}, {"refused", refusalsJson(summary)}}},
+      {"unused", unused},
+      {"notes", outcome.notes},
+      {"problems", outcome.end.problems},
+      {"damage", outcome.end.damage},
+      {"interrupted", outcome.end.interrupted},
+      {"repairs",
+       {{"damped", result.repairs.damped},
+        {"factors_dropped", result.repairs.factors_dropped},
+        {"reanchored", result.repairs.reanchored}}},
+      {"stage_ms", stagesJson(outcome.stages)}};
 }
 
 std::string summaryText(const ReplayOutcome& outcome) {
@@ -117,7 +123,12 @@ std::string summaryText(const ReplayOutcome& outcome) {
   for (const auto& [reason, count] : summary.refusals) {
     out += ", " + std::to_string(count) + " refused (" + reason + ")";
   }
-  out += '\n' + unusedText(outcome);
+  out += "\nat rest          " + std::to_string(summary.frames_at_rest) + " scans\n";
+  if (summary.poses > 0) {
+    out += formatted("tilt of the map  %.3f deg against gravity (1 sigma %.3f deg)\n",
+                     degrees(summary.map_tilt_rad), degrees(summary.map_tilt_sigma_rad));
+  }
+  out += unusedText(outcome);
   out += formatted("repairs          %llu\n",
                    static_cast<unsigned long long>(outcome.result.repairs.total()));
   out += formatted("speed            %.1f x real time (%.1f s for %.1f s), %.0f MB at most\n",

@@ -16,6 +16,13 @@ double worstOf(const std::vector<double>& values) {
   return worst;
 }
 
+// The map's tilt against gravity, from the last pose: all poses share one gravity.
+void tellTilt(const TrajectoryPoint& last, ReportSummary& summary) {
+  const Vec3 down = last.gravity_map.normalized();
+  summary.map_tilt_rad = std::atan2(std::hypot(down.x(), down.y()), -down.z());
+  summary.map_tilt_sigma_rad = std::hypot(last.gravity_sigma.x(), last.gravity_sigma.y());
+}
+
 void countTrajectory(const std::vector<TrajectoryPoint>& trajectory, ReportSummary& summary) {
   summary.poses = trajectory.size();
   if (trajectory.empty()) return;
@@ -36,6 +43,7 @@ void countTrajectory(const std::vector<TrajectoryPoint>& trajectory, ReportSumma
   summary.rotation_sigma_median_rad = quantile(rotation, 0.5);
   summary.rotation_sigma_worst_rad = worstOf(rotation);
   summary.stretches = flagStretches(trajectory);
+  tellTilt(trajectory.back(), summary);
 }
 
 void countFrames(const std::vector<FrameDiagnostics>& diagnostics, ReportSummary& summary) {
@@ -43,6 +51,7 @@ void countFrames(const std::vector<FrameDiagnostics>& diagnostics, ReportSummary
   std::map<MatchRefusal, std::size_t> refusals;
   std::vector<double> residuals;
   for (const FrameDiagnostics& frame : diagnostics) {
+    summary.frames_at_rest += frame.at_rest ? 1 : 0;
     if (frame.match.accepted()) {
       ++summary.map_factors_used;
       residuals.push_back(frame.match.residual_rms_m);

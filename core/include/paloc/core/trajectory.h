@@ -38,6 +38,7 @@ struct TrajectoryPoint {
   Vec3 v_sigma = Vec3::Zero();     ///< standard deviations of v_map (m/s)
   Vec3 bias_acc_sigma = Vec3::Zero();   ///< m/s2
   Vec3 bias_gyro_sigma = Vec3::Zero();  ///< rad/s
+  Vec3 gravity_sigma = Vec3::Zero();    ///< of gravity_map's components
   PoseFlag flag = PoseFlag::kLost;
   std::array<DirectionClass, 6> directions{};  ///< of its map factor; none where there is none
 };

@@ -23,6 +23,9 @@ struct ReportSummary {
   double rotation_sigma_worst_rad = 0;
   double residual_median_m = 0;  ///< median over the used map factors of the inliers' rms
   std::size_t frames = 0;
+  std::size_t frames_at_rest = 0;
+  double map_tilt_rad = 0;  ///< between gravity, as estimated, and the map's -z
+  double map_tilt_sigma_rad = 0;
   std::size_t map_factors_used = 0;
   std::vector<std::pair<std::string, std::size_t>> refusals;  ///< reason and count, most first
   std::vector<FlagStretch> stretches;                         ///< of the whole trajectory
