@@ -93,7 +93,7 @@ void decideReading(const std::vector<ScanEntry>& scans, const ImportCloudsSettin
   }
   if (max_intensity > 0 && max_intensity <= 1 && !whole_numbers) {
     how.intensity_scale = 255;
-    summary.notes.push_back("intensities lie between 0 and 1: multiplied by 255");
+    summary.notes.emplace_back("intensities lie between 0 and 1: multiplied by 255");
   }
   if (!samples.empty()) {
     how.times =
@@ -108,17 +108,17 @@ void noteDeskewing(const std::vector<ScanEntry>& scans, const ScanConversion& ho
   const bool ends =
       std::any_of(scans.begin(), scans.end(), [](const auto& s) { return s.last_ns; });
   if (how.deskewed == Deskewed::kYes) {
-    summary.notes.push_back("points have no times: the scans are deskewed, as stated");
+    summary.notes.emplace_back("points have no times: the scans are deskewed, as stated");
   } else if (how.deskewed == Deskewed::kNo) {
-    summary.notes.push_back(
+    summary.notes.emplace_back(
         "points have no times, and the scans are not deskewed, as stated: "
         "motion during a scan cannot be undone");
   } else if (ends) {
-    summary.notes.push_back(
+    summary.notes.emplace_back(
         "points have no times, but scans have an end: taken as not deskewed "
         "(--deskewed if they are)");
   } else {
-    summary.notes.push_back(
+    summary.notes.emplace_back(
         "points have no times and scans no end: taken as deskewed to their "
         "stamp (--not-deskewed if they are not)");
   }
@@ -129,7 +129,7 @@ void noteImu(const std::vector<ImuSample>& imu, ImportSummary& summary) {
   for (const auto& sample : imu) sum += sample.acc_body.norm();
   const double mean = sum / static_cast<double>(imu.size());
   if (mean > 0.8 && mean < 1.25) {
-    summary.notes.push_back(
+    summary.notes.emplace_back(
         "the IMU's mean specific force is near 1: it looks like g, but is taken as "
         "m/s2 as the column's name says");
   }

@@ -45,6 +45,7 @@ std::string number(double value) {
 template <typename F>
 double medianOf(const std::vector<PointTimeSample>& samples, F&& value) {
   std::vector<double> values;
+  values.reserve(samples.size());
   for (const auto& s : samples) values.push_back(static_cast<double>(value(s)));
   return quantile(std::move(values), 0.5);
 }
