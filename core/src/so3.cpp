@@ -19,7 +19,7 @@ Mat3 hat(const Vec3& v) {
 
 Mat3 exp(const Vec3& w) {
   const double angle_sq = w.squaredNorm();
-  double a, b;  // R = I + a hat(w) + b hat(w)^2
+  double a = 0, b = 0;  // R = I + a hat(w) + b hat(w)^2
   if (angle_sq < kSmallAngleSq) {
     a = 1 - angle_sq / 6;
     b = 0.5 - angle_sq / 24;
@@ -48,7 +48,7 @@ Vec3 log(const Mat3& rotation) {
 
 Mat3 rightJacobian(const Vec3& w) {
   const double angle_sq = w.squaredNorm();
-  double b, c;  // J = I - b hat(w) + c hat(w)^2
+  double b = 0, c = 0;  // J = I - b hat(w) + c hat(w)^2
   if (angle_sq < kSmallAngleSq) {
     b = 0.5 - angle_sq / 24;
     c = 1.0 / 6 - angle_sq / 120;
@@ -64,7 +64,7 @@ Mat3 rightJacobian(const Vec3& w) {
 
 Mat3 rightJacobianInverse(const Vec3& w) {
   const double angle_sq = w.squaredNorm();
-  double c;  // J^-1 = I + hat(w) / 2 + c hat(w)^2
+  double c = 0;  // J^-1 = I + hat(w) / 2 + c hat(w)^2
   if (angle_sq < kSmallAngleSq) {
     c = 1.0 / 12 + angle_sq / 720;
   } else {

@@ -1,7 +1,9 @@
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numbers>
 
@@ -16,11 +18,37 @@ namespace {
 
 using mrpt::obs::CObservationVelodyneScan;
 using Packet = CObservationVelodyneScan::TVelodyneRawPacket;
+using Block = CObservationVelodyneScan::raw_block_t;
 
 constexpr int kBlocks = CObservationVelodyneScan::BLOCKS_PER_PACKET;
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::uint32_t kMicrosecondsPerHour = 3'600'000'000U;
 constexpr TimeNs kLongestScan = 4 * kNsPerSecond;  // dt_ns has 32 bits
+
+// MRPT's accessors bind references to fields of a packed struct, which is undefined where they are
+// not aligned; so the bytes of a packet are read as the manual lays them out.
+static_assert(std::endian::native == std::endian::little, "packets are little-endian");
+constexpr std::size_t kPacketTimeOffset = 1200;
+static_assert(sizeof(Packet) == 1206 && sizeof(Block) == 100, "packets are packed");
+
+template <typename T, typename Struct>
+T fieldAt(const Struct& packed, std::size_t offset) {
+  T value;
+  std::memcpy(&value, reinterpret_cast<const unsigned char*>(&packed) + offset, sizeof value);
+  return value;
+}
+
+std::uint32_t timeOf(const Packet& packet) {  // microseconds of the hour
+  return fieldAt<std::uint32_t>(packet, kPacketTimeOffset);
+}
+std::uint16_t headerOf(const Block& block) { return fieldAt<std::uint16_t>(block, 0); }
+std::uint16_t rotationOf(const Block& block) { return fieldAt<std::uint16_t>(block, 2); }
+std::uint16_t distanceOf(const Block& block, int i) {  // of its i-th return, in units of 2 mm
+  return fieldAt<std::uint16_t>(block, 4 + 3 * static_cast<std::size_t>(i));
+}
+std::uint8_t intensityOf(const Block& block, int i) {
+  return fieldAt<std::uint8_t>(block, 6 + 3 * static_cast<std::size_t>(i));
+}
 
 struct Beam {
   double azimuth = 0;  // rad, added to the block's
@@ -66,7 +94,7 @@ std::vector<TimeNs> packetTimes(const std::vector<Packet>& packets, TimeNs packe
   std::vector<TimeNs> times(packets.size(), 0);
   counted = false;
   for (std::size_t i = 1; i < packets.size() && !counted; ++i) {
-    const std::uint32_t now = packets[i].gps_timestamp(), first = packets[0].gps_timestamp();
+    const std::uint32_t now = timeOf(packets[i]), first = timeOf(packets[0]);
     const std::uint32_t since = now >= first ? now - first : now + kMicrosecondsPerHour - first;
     times[i] = TimeNs{since} * 1000;
     counted = times[i] <= times[i - 1] || times[i] > kLongestScan;
@@ -81,7 +109,7 @@ std::vector<TimeNs> packetTimes(const std::vector<Packet>& packets, TimeNs packe
 // block with no next one, or behind a gap, turns as the one before it.
 std::vector<double> blockTurns(const std::vector<Packet>& packets, int blocks_per_firing) {
   const auto azimuth = [&](std::size_t block) {
-    return packets[block / kBlocks].blocks[block % kBlocks].rotation();
+    return rotationOf(packets[block / kBlocks].blocks[block % kBlocks]);
   };
   const std::size_t n = packets.size() * kBlocks;
   const auto step = static_cast<std::size_t>(blocks_per_firing);
@@ -120,21 +148,20 @@ struct Decoding {
   }
 
   // `twin`: the other return of the same firings in dual mode, or null; equal returns count once.
-  void addBlock(const CObservationVelodyneScan::raw_block_t& block,
-                const CObservationVelodyneScan::raw_block_t* twin, TimeNs start, double turn) {
+  void addBlock(const Block& block, const Block* twin, TimeNs start, double turn) {
     const TimeNs block_ns = model.firings_per_block * model.firing_ns;
     for (int i = 0; i < CObservationVelodyneScan::SCANS_PER_BLOCK; ++i) {
       const int firing = i / model.lasers, laser = i % model.lasers;
-      const auto& measured = block.laser_returns[i];
-      const bool repeated = twin && twin->laser_returns[i].distance() == measured.distance();
-      if (measured.distance() == 0) ++frame.invalid_points;
-      if (measured.distance() == 0 || repeated) continue;
+      const std::uint16_t distance = distanceOf(block, i);
+      const bool repeated = twin && distanceOf(*twin, i) == distance;
+      if (distance == 0) ++frame.invalid_points;
+      if (distance == 0 || repeated) continue;
       const TimeNs in_block = firing * model.firing_ns + laser * model.laser_ns;
-      const double azimuth = block.rotation() * 0.01 * kDegree +
+      const double azimuth = rotationOf(block) * 0.01 * kDegree +
                              turn * static_cast<double>(in_block) / static_cast<double>(block_ns);
       const double range =
-          measured.distance() * static_cast<double>(CObservationVelodyneScan::DISTANCE_RESOLUTION);
-      addReturn(laser, azimuth, range, start + in_block, measured.intensity());
+          distance * static_cast<double>(CObservationVelodyneScan::DISTANCE_RESOLUTION);
+      addReturn(laser, azimuth, range, start + in_block, intensityOf(block, i));
     }
   }
 };
@@ -159,7 +186,7 @@ bool decodePackets(const CObservationVelodyneScan& scan, const velodyne::Model& 
   for (std::size_t p = 0; p < packets.size(); ++p) {
     for (int b = 0; b < kBlocks; ++b) {
       const auto& block = packets[p].blocks[b];
-      if (block.header() != CObservationVelodyneScan::UPPER_BANK) {
+      if (headerOf(block) != CObservationVelodyneScan::UPPER_BANK) {
         frame.invalid_points += CObservationVelodyneScan::SCANS_PER_BLOCK;
         continue;
       }

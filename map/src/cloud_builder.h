@@ -48,7 +48,7 @@ struct CloudFields {
 
   bool has(Role role) const { return index[role] != kAbsent; }
 
-  std::array<std::size_t, kRoles> index;
+  std::array<std::size_t, kRoles> index{};
   std::string time_field;
   bool time_is_integer = false;
 };

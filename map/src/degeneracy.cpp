@@ -128,7 +128,8 @@ void observeKind(std::span<const PlaneRow> rows, const Mat6& information,
   const std::array<Support, 3> supports = measureSupport(rows, motions, noise);
   for (int i = 0; i < 3; ++i) {
     const Support& support = supports[static_cast<std::size_t>(i)];
-    MatchDirection& direction = directions[static_cast<std::size_t>(own + i)];
+    MatchDirection& direction =
+        directions[static_cast<std::size_t>(own) + static_cast<std::size_t>(i)];
     direction.axis_body = solver.eigenvectors().col(i);
     direction.probability = informativeProbability(support);
     eigenvalues[static_cast<std::size_t>(i)] = std::max(solver.eigenvalues()[i], 0.0);
@@ -146,7 +147,8 @@ void observeKind(std::span<const PlaneRow> rows, const Mat6& information,
 
 void attenuateKind(int own, const std::array<MatchDirection, 6>& directions, Mat6& information) {
   for (int i = 0; i < 3; ++i) {
-    const MatchDirection& direction = directions[static_cast<std::size_t>(own + i)];
+    const MatchDirection& direction =
+        directions[static_cast<std::size_t>(own) + static_cast<std::size_t>(i)];
     const double factor = factorOf(direction);
     if (factor >= 1) continue;
     const Mat3 schur = schurComplement(information, own);

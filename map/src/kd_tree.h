@@ -13,6 +13,7 @@ namespace paloc {
 struct PointAdaptor {
   const std::vector<Point3f>& points;
 
+  // NOLINTBEGIN(readability-identifier-naming): nanoflann calls them so
   std::size_t kdtree_get_point_count() const { return points.size(); }
   float kdtree_get_pt(std::size_t index, std::size_t dim) const {
     const Point3f& p = points[index];
@@ -22,6 +23,7 @@ struct PointAdaptor {
   bool kdtree_get_bbox(Box&) const {
     return false;
   }
+  // NOLINTEND(readability-identifier-naming)
 };
 
 using KdTree = nanoflann::KDTreeSingleIndexAdaptor<
@@ -30,7 +32,7 @@ using KdTree = nanoflann::KDTreeSingleIndexAdaptor<
 
 /// Result set of nanoflann for one neighbour within a distance.
 struct NearestResult {
-  float distance_sq;
+  float distance_sq = 0;
   std::uint32_t index = std::numeric_limits<std::uint32_t>::max();
 
   std::size_t size() const { return 1; }

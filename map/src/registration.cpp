@@ -113,7 +113,7 @@ void Registration::search(Correspondence& match, const Vec3& position, const Vec
   match.planar = true;
   match.map_point = toVec(map_.point(nearest.index));
   match.height = match.normal.dot(match.map_point) + static_cast<double>(plane.offset_m);
-  const double thickness = static_cast<double>(plane.thickness_m);
+  const auto thickness = static_cast<double>(plane.thickness_m);
   // The point of the scan lies anywhere in the thickness of the surface, the fit has its own error.
   const double roughness = std::max(thickness, settings_.map_noise_m);
   match.fit_variance = roughness * roughness + thickness * thickness / plane.points;

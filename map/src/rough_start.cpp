@@ -61,7 +61,9 @@ double blockedShare(const PriorMap& map, const std::vector<Point3f>& points_body
     if (length < 2 * kRayMarginM) continue;
     ++rays;
     const Vec3 direction = (to - from) / length;
-    for (double along = kRayMarginM; along < length - kRayMarginM; along += kRayStepM) {
+    const int steps = static_cast<int>(std::ceil((length - 2 * kRayMarginM) / kRayStepM));
+    for (int step = 0; step < steps; ++step) {
+      const double along = kRayMarginM + step * kRayStepM;
       const Vec3 at = from + along * direction;
       const Point3f query{static_cast<float>(at.x()), static_cast<float>(at.y()),
                           static_cast<float>(at.z())};
