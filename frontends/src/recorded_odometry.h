@@ -5,7 +5,7 @@
 #include <deque>
 #include <set>
 
-#include "imu_buffer.h"
+#include "imu_queue.h"
 #include "paloc/frontends/deskew.h"
 #include "paloc/frontends/frontend_settings.h"
 #include "paloc/frontends/lidar_decoder.h"
@@ -64,7 +64,7 @@ class RecordedOdometry : public OdometryFrontend {
   FrontendSettings settings_;
   StreamChoice lidar_, imu_, odometry_;
   StampOrder lidar_order_, imu_order_, odometry_order_;
-  ImuBuffer imu_samples_;
+  ImuQueue imu_samples_;
   OdometryTrack track_;
   std::deque<LidarFrame> waiting_;
   LidarFrame recycled_;  // its memory serves the next scan

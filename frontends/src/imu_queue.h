@@ -10,9 +10,9 @@
 namespace paloc {
 
 /// IMU samples that wait to be given out, and those given out that a scan may still need.
-class ImuBuffer {
+class ImuQueue {
  public:
-  explicit ImuBuffer(double max_gap_s) : max_gap_s_(max_gap_s) {}
+  explicit ImuQueue(double max_gap_s) : max_gap_s_(max_gap_s) {}
 
   /// The sample must be later than those before.
   void add(const ImuSample& sample);

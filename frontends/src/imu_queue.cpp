@@ -1,10 +1,10 @@
-#include "imu_buffer.h"
+#include "imu_queue.h"
 
 #include <algorithm>
 
 namespace paloc {
 
-void ImuBuffer::add(const ImuSample& sample) {
+void ImuQueue::add(const ImuSample& sample) {
   if (!samples_.empty()) {
     const double dt_s = secondsBetween(newestNs(), sample.t_ns);
     if (dt_s > max_gap_s_) {
@@ -19,7 +19,7 @@ void ImuBuffer::add(const ImuSample& sample) {
   samples_.push_back({sample, gravity_.up().value_or(Vec3::UnitZ())});
 }
 
-std::optional<ImuSample> ImuBuffer::takeUntil(TimeNs until_ns) {
+std::optional<ImuSample> ImuQueue::takeUntil(TimeNs until_ns) {
   if (given_ == samples_.size() || (last_given_ns_ && *last_given_ns_ >= until_ns)) {
     return std::nullopt;
   }
@@ -28,14 +28,14 @@ std::optional<ImuSample> ImuBuffer::takeUntil(TimeNs until_ns) {
   return sample;
 }
 
-std::size_t ImuBuffer::lowerBound(TimeNs t_ns) const {
+std::size_t ImuQueue::lowerBound(TimeNs t_ns) const {
   const auto found =
       std::lower_bound(samples_.begin(), samples_.end(), t_ns,
                        [](const Entry& entry, TimeNs t) { return entry.sample.t_ns < t; });
   return static_cast<std::size_t>(found - samples_.begin());
 }
 
-std::vector<ImuSample> ImuBuffer::covering(TimeNs start_ns, TimeNs end_ns) const {
+std::vector<ImuSample> ImuQueue::covering(TimeNs start_ns, TimeNs end_ns) const {
   std::size_t first = lowerBound(start_ns + 1);
   const std::size_t last = lowerBound(end_ns);
   if (first == 0 || last == samples_.size()) return {};
@@ -49,13 +49,13 @@ std::vector<ImuSample> ImuBuffer::covering(TimeNs start_ns, TimeNs end_ns) const
   return result;
 }
 
-std::optional<Vec3> ImuBuffer::upAt(TimeNs t_ns) const {
+std::optional<Vec3> ImuQueue::upAt(TimeNs t_ns) const {
   const std::size_t i = lowerBound(t_ns);
   if (i == samples_.size()) return std::nullopt;
   return samples_[i].up_body;
 }
 
-void ImuBuffer::forgetBefore(TimeNs t_ns) {
+void ImuQueue::forgetBefore(TimeNs t_ns) {
   while (given_ > 1 && samples_[1].sample.t_ns < t_ns) {
     samples_.pop_front();
     --given_;
