@@ -19,10 +19,10 @@ struct MatcherSettings {
   double min_overlap = 0.2;        ///< share of points that must find a plane
   int min_inliers = 100;
   double max_residual_rms_m = 0.12;
-  double max_step_sigmas = 4;    ///< step from the prediction, in its standard deviations
-  double step_floor_m = 0.1;     ///< added to the prediction's sigma of position (in squares)
-  double step_floor_rad = 0.02;  ///< the same for rotation
-  int max_iterations = 40;  // most scans need fewer than ten; thick maps now and then more
+  double max_step_sigmas = 4;      ///< step from the prediction, in its standard deviations
+  double step_floor_m = 0.1;       ///< added to the prediction's sigma of position (in squares)
+  double step_floor_rad = 0.02;    ///< the same for rotation
+  int max_iterations = 40;         // most scans need fewer than ten; thick maps now and then more
   double locate_distance_m = 1.5;  ///< point to map point, in the first iterations of a rough start
   double locate_max_step_m = 1.5;  ///< furthest that a rough start is corrected by
   double locate_max_step_rad = 0.35;
