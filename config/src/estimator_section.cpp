@@ -31,6 +31,15 @@ std::vector<Setting> estimatorSettings() {
       "map_correlation_time_s", &S::map_correlation_time_s, "s", {0.001, 1000},
       "So long the same surfaces stay in view with the same errors of the map: scans within it "
       "share one scan's information.");
+  s.number("rematch_position_m", &S::rematch_position_m, "m", {0, 100},
+           "Smoothing at the end associates a scan with the map anew if its pose moved further.");
+  s.number("rematch_rotation_rad", &S::rematch_rotation_rad, "rad", {0, 4},
+           "Likewise for its rotation.");
+  s.count("max_rematch_rounds", &S::max_rematch_rounds, {0, 100},
+          "How often it does so, and smooths again.");
+  s.number("rematch_memory_mb", &S::rematch_memory_mb, "MB", {0, 1e6},
+           "Thinned scans kept for that; beyond it only those that were refused or left a "
+           "direction open.");
   s.count("max_start_attempts", &S::max_start_attempts, {1, 1000000},
           "Scans tried from the initial pose before giving up.");
   s.count("relocate_after_refusals", &S::relocate_after_refusals, {1, 1000000},

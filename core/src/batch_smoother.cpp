@@ -91,7 +91,9 @@ BatchSummary smoothBatch(std::vector<ChainNode>& nodes, const SmootherSettings& 
     summary.status = BatchSummary::Status::kFailed;
     return summary;
   }
-  summary.covariances = solver.covariances();
+  ChainSolver::JointCovariances covariances = solver.jointCovariances();
+  summary.covariances = std::move(covariances.own);
+  summary.covariances_with_next = std::move(covariances.with_next);
   return summary;
 }
 

@@ -156,10 +156,11 @@ StateMatrix ChainSolver::newestCovariance() const {
   return impl_->factor.inverseOfBlock(impl_->factor.end() - 1);
 }
 
-// With W = L(k+1,k) L(k,k)^-1: Sigma(k) = (L D L^T)^-1 + W^T Sigma(k+1) W, from the end backwards.
+// With W = L(k+1,k) L(k,k)^-1: Sigma(k) = (L D L^T)^-1 + W^T Sigma(k+1) W, and of k with k+1
+// -W^T Sigma(k+1), from the end backwards.
 template <class Visitor>
 void ChainSolver::Impl::recurseCovariances(std::size_t first, Visitor visit) const {
-  StateMatrix sigma = StateMatrix::Zero();
+  StateMatrix sigma = StateMatrix::Zero(), with_next = StateMatrix::Zero();
   for (std::size_t k = factor.count(); k-- > first;) {
     const std::size_t place = factor.begin() + k;
     StateMatrix next = factor.inverseOfBlock(place);
@@ -169,23 +170,38 @@ void ChainSolver::Impl::recurseCovariances(std::size_t first, Visitor visit) con
                                 .triangularView<Eigen::UnitUpper>()
                                 .solve(factor.couplingBlock(place).transpose())
                                 .transpose();
-      next.noalias() += w.transpose() * sigma * w;
+      with_next.noalias() = -w.transpose() * sigma;
+      next.noalias() -= with_next * w;
     }
     sigma = 0.5 * (next + next.transpose());
-    visit(k, sigma);
+    visit(k, sigma, with_next);
   }
 }
 
 std::vector<StateMatrix> ChainSolver::covariances(std::size_t first) const {
   std::vector<StateMatrix> result(impl_->factor.count() - first);
+  impl_->recurseCovariances(first, [&](std::size_t k, const StateMatrix& sigma,
+                                       const StateMatrix&) { result[k - first] = sigma; });
+  return result;
+}
+
+ChainSolver::JointCovariances ChainSolver::jointCovariances() const {
+  const std::size_t count = impl_->factor.count();
+  JointCovariances result;
+  result.own.resize(count);
+  result.with_next.resize(count == 0 ? 0 : count - 1);
   impl_->recurseCovariances(
-      first, [&](std::size_t k, const StateMatrix& sigma) { result[k - first] = sigma; });
+      0, [&](std::size_t k, const StateMatrix& sigma, const StateMatrix& with_next) {
+        result.own[k] = sigma;
+        if (k + 1 < count) result.with_next[k] = with_next;
+      });
   return result;
 }
 
 StateMatrix ChainSolver::covariance(std::size_t first) const {
   StateMatrix result = StateMatrix::Zero();
-  impl_->recurseCovariances(first, [&](std::size_t, const StateMatrix& sigma) { result = sigma; });
+  impl_->recurseCovariances(
+      first, [&](std::size_t, const StateMatrix& sigma, const StateMatrix&) { result = sigma; });
   return result;
 }
 

@@ -12,13 +12,16 @@ bool finite(const State& x) {
          x.gravity_map.allFinite();
 }
 
-// What a platform on the ground may be expected to be near at all: the anchor of last resort.
-PriorFactor wideAnchor(const State& state) {
+// What a platform on the ground may be expected to be near at all.
+StateVector wideSigma() {
   StateVector sigma;
   sigma << Vec3::Constant(10), Vec3::Constant(1), Vec3::Constant(10), Vec3::Constant(0.5),
       Vec3::Constant(0.05), Vec3::Constant(0.1);
-  return PriorFactor::fromSigmas(state, sigma);
+  return sigma;
 }
+
+// The anchor of last resort.
+PriorFactor wideAnchor(const State& state) { return PriorFactor::fromSigmas(state, wideSigma()); }
 
 UpdateSummary refused() {
   UpdateSummary summary;
@@ -183,13 +186,15 @@ bool FixedLagSmoother::factorize(std::size_t first, UpdateSummary& summary) {
   return false;
 }
 
-// Starts the window anew from the newest node, where the estimate last stood.
+// Starts the window anew from the newest node, where the estimate last stood. Without a
+// factorization nothing can be told of how sure the others are: they leave as unsure as the anchor.
 void FixedLagSmoother::reanchor(UpdateSummary& summary) {
   summary.status = UpdateSummary::Status::kRepaired;
   ++repairs_.reanchored;
   ChainNode newest = nodes_.back();
+  const StateMatrix unsure = wideSigma().cwiseAbs2().asDiagonal();
   for (std::size_t k = 0; k + 1 < nodes_.size(); ++k) {
-    left_.push_back({ids_[k], nodes_[k].t_ns, nodes_[k].state, StateMatrix::Zero()});
+    left_.push_back({ids_[k], nodes_[k].t_ns, estimate(k), unsure});
   }
   ids_.assign(1, NodeId(ids_.back()));
   newest.edge_factors.clear();

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "paloc/core/batch_smoother.h"
 #include "paloc/core/mrpt_pose.h"
 #include "paloc/core/pose_flags.h"
 #include "paloc/core/start_prior.h"
+#include "paloc/core/trajectory_point.h"
 
 namespace paloc {
 namespace {
@@ -38,7 +38,8 @@ TrajectoryGenerator::TrajectoryGenerator(const EstimatorSettings& settings,
     : settings_(settings),
       matcher_(std::move(matcher)),
       stillness_(settings.stillness),
-      smoother_(settings.smoother) {}
+      smoother_(settings.smoother),
+      scans_(settings.rematch_memory_mb) {}
 
 TrajectoryGenerator::~TrajectoryGenerator() = default;
 
@@ -67,13 +68,35 @@ void TrajectoryGenerator::addFrame(const OdometryFrame& frame) {
     unused_.add("OdometryFrame", "estimator", "not newer than the last");
     return;
   }
-  stillness_.addOdometry(frame.t_ns, fromMrpt(frame.T_odom_body), frame.continues);
+  const Pose T_odom_body = fromMrpt(frame.T_odom_body);
+  if (!T_odom_body.position.allFinite() || !T_odom_body.rotation.allFinite()) {
+    unused_.add("OdometryFrame", "estimator", "its pose is not finite");
+    motion_skipped_ += frame.motion_covariance;
+    odometry_broken_ = odometry_broken_ || !frame.continues;
+    return;
+  }
+  stillness_.addOdometry(frame.t_ns, T_odom_body, frame.continues);
   if (history_.empty()) {
     tryStart(frame);
+    rememberOdometry(T_odom_body);
   } else {
-    advance(frame);
+    advance(sinceLastNode(frame));
   }
-  T_odom_body_last_ = fromMrpt(frame.T_odom_body);
+}
+
+// The motion that an odometry factor covers begins at the last node, and frames that were passed
+// over since belong to it.
+OdometryFrame TrajectoryGenerator::sinceLastNode(const OdometryFrame& frame) const {
+  OdometryFrame whole = frame;
+  whole.continues = frame.continues && !odometry_broken_;
+  whole.motion_covariance += motion_skipped_;
+  return whole;
+}
+
+void TrajectoryGenerator::rememberOdometry(const Pose& T_odom_body) {
+  T_odom_body_last_ = T_odom_body;
+  motion_skipped_.setZero();
+  odometry_broken_ = false;
 }
 
 // The rough pose belongs to the first frame; until a start is believed, odometry carries it on.
@@ -109,7 +132,9 @@ void TrajectoryGenerator::start(const OdometryFrame& frame, const MapMatch& matc
   node.node_factors.push_back(startPrior(node.state, settings_));
   addMapFactor(match, kFirstFrameInterval_s, node);
   if (smoother_.add(node).status == UpdateSummary::Status::kRefused) return;
-  history_.push_back({std::move(node), diagnostics_.size() - 1});
+  const Pose guess = node.state.T_map_body;
+  history_.push_back({std::move(node), diagnostics_.size() - 1, scans_.associate(match, guess)});
+  diagnostics_.back().match.thinned.reset();
 }
 
 void TrajectoryGenerator::advance(const OdometryFrame& frame) {
@@ -123,7 +148,7 @@ void TrajectoryGenerator::advance(const OdometryFrame& frame) {
                                       last.state.bias_acc, last.state.bias_gyro)) {
       imu.emplace(*p, settings_.gravity_mps2);
     }
-    imu_.forgetBefore(frame.t_ns);
+    imu_.forgetBefore(last.t_ns);  // what comes after is needed again if this frame is refused
   }
   ChainNode node;
   node.t_ns = frame.t_ns;
@@ -140,7 +165,12 @@ void TrajectoryGenerator::advance(const OdometryFrame& frame) {
   if (row.match.accepted()) addMapFactor(row.match, dt_s, node);
   row.at_rest = stillness_.update(frame.t_ns, last.state.bias_gyro);
   if (row.at_rest) addStationaryFactors(last.t_ns, diagnostics_.back().at_rest, node);
-  append(std::move(node), row);
+  if (append(std::move(node), row)) {
+    rememberOdometry(fromMrpt(frame.T_odom_body));
+  } else {
+    motion_skipped_ = frame.motion_covariance;
+    odometry_broken_ = !frame.continues;
+  }
 }
 
 MapMatch TrajectoryGenerator::matchScan(const OdometryFrame& frame, const State& predicted,
@@ -211,19 +241,23 @@ void TrajectoryGenerator::addStationaryFactors(TimeNs since_ns, bool rested_befo
   }
 }
 
-void TrajectoryGenerator::append(ChainNode node, FrameDiagnostics row) {
+// False if the smoother refuses the node.
+bool TrajectoryGenerator::append(ChainNode node, FrameDiagnostics row) {
   const std::uint64_t repairs_before = smoother_.repairs().total();
   {
     StageScope stage(timer_, "smooth");
     if (smoother_.add(node).status == UpdateSummary::Status::kRefused) {
       unused_.add("OdometryFrame", "estimator", "refused by the smoother");
-      return;
+      return false;
     }
   }
   row.repairs = static_cast<int>(smoother_.repairs().total() - repairs_before);
-  diagnostics_.push_back(row);
-  history_.push_back({std::move(node), diagnostics_.size() - 1});
+  MapAssociation association = scans_.associate(row.match, node.state.T_map_body);
+  row.match.thinned.reset();
+  diagnostics_.push_back(std::move(row));
+  history_.push_back({std::move(node), diagnostics_.size() - 1, std::move(association)});
   collectLeft();
+  return true;
 }
 
 // Estimates of nodes that left the window are the online result, and the batch's first guess.
@@ -231,32 +265,8 @@ void TrajectoryGenerator::collectLeft() {
   for (const NodeEstimate& left : smoother_.takeLeft()) {
     const auto index = static_cast<std::size_t>(left.id);
     history_[index].node.state = left.state;
-    online_.push_back(pointOf(left, index));
+    online_.push_back(trajectoryPoint(left, history_[index].association.match));
   }
-}
-
-TrajectoryPoint TrajectoryGenerator::pointOf(const NodeEstimate& estimate,
-                                             std::size_t history_index) const {
-  const auto sigma = [&](int offset) -> Vec3 {
-    return estimate.covariance.diagonal().segment<3>(offset).cwiseMax(0.0).cwiseSqrt();
-  };
-  TrajectoryPoint point;
-  point.t_ns = estimate.t_ns;
-  point.T_map_body = toMrpt(estimate.state.T_map_body);
-  point.v_map = estimate.state.v_map;
-  point.bias_acc = estimate.state.bias_acc;
-  point.bias_gyro = estimate.state.bias_gyro;
-  point.gravity_map = estimate.state.gravity_map;
-  point.covariance = estimate.covariance.topLeftCorner<6, 6>();
-  point.v_sigma = sigma(tangent::kVelocity);
-  point.bias_acc_sigma = sigma(tangent::kBiasAcc);
-  point.bias_gyro_sigma = sigma(tangent::kBiasGyro);
-  point.gravity_sigma = sigma(tangent::kGravity);
-  const MapMatch& match = diagnostics_[history_[history_index].diagnostics_index].match;
-  for (std::size_t d = 0; d < 6; ++d) {
-    point.directions[d] = match.accepted() ? match.directions[d].cls : DirectionClass::kNone;
-  }
-  return point;
 }
 
 std::vector<TrajectoryPoint> TrajectoryGenerator::takeOnline() {
@@ -275,34 +285,67 @@ std::optional<NodeEstimate> TrajectoryGenerator::newest() const {
   return smoother_.newest();
 }
 
-std::vector<TrajectoryPoint> TrajectoryGenerator::smoothAll() {
+// Smooths all nodes, associates scans with the map anew where that moved their poses, and smooths
+// again. On failure `result` stays without a trajectory.
+void TrajectoryGenerator::smoothAll(Result& result) {
   StageScope stage(timer_, "batch");
   std::vector<ChainNode> nodes;
   nodes.reserve(history_.size());
   for (const HistoryNode& entry : history_) nodes.push_back(entry.node);
-  const BatchSummary batch = smoothBatch(nodes, settings_.smoother);
-  std::vector<TrajectoryPoint> points;
-  if (batch.status == BatchSummary::Status::kFailed) return points;
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    points.push_back(pointOf({k, nodes[k].t_ns, nodes[k].state, batch.covariances[k]}, k));
+  BatchSummary batch = smoothBatch(nodes, settings_.smoother);
+  for (int round = 0; round < settings_.max_rematch_rounds; ++round) {
+    if (batch.status == BatchSummary::Status::kFailed) return;
+    if (!associateAllAnew(batch, nodes, result.rematched)) break;
+    batch = smoothBatch(nodes, settings_.smoother);
   }
-  return points;
+  if (batch.status == BatchSummary::Status::kFailed) return;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const NodeEstimate estimate{k, nodes[k].t_ns, nodes[k].state, batch.covariances[k]};
+    result.trajectory.push_back(trajectoryPoint(estimate, history_[k].association.match));
+  }
+  result.covariances = std::move(batch.covariances);
+  result.covariances_with_next = std::move(batch.covariances_with_next);
+}
+
+// True if any node's map factor is a new one.
+bool TrajectoryGenerator::associateAllAnew(const BatchSummary& batch, std::vector<ChainNode>& nodes,
+                                           RematchCounts& counts) {
+  StageScope stage(timer_, "rematch");
+  bool any = false;
+  counts.not_kept = 0;  // the last round's are all
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    MapAssociation& association = history_[k].association;
+    const Mat6 covariance = batch.covariances[k].topLeftCorner<6, 6>();
+    if (!associateAnew(*matcher_, settings_, nodes[k].state.T_map_body, covariance, association,
+                       counts)) {
+      continue;
+    }
+    any = true;
+    std::erase_if(nodes[k].node_factors, [](const NodeFactor& factor) {
+      return std::holds_alternative<MapFactor>(factor);
+    });
+    const double since_last_s =
+        k == 0 ? kFirstFrameInterval_s : secondsBetween(nodes[k - 1].t_ns, nodes[k].t_ns);
+    if (association.match.accepted()) addMapFactor(association.match, since_last_s, nodes[k]);
+  }
+  return any;
 }
 
 Result TrajectoryGenerator::finish(Smoothing smoothing) {
   for (const NodeEstimate& rest : smoother_.window(true)) {
     const auto index = static_cast<std::size_t>(rest.id);
     history_[index].node.state = rest.state;
-    online_.push_back(pointOf(rest, index));
+    online_.push_back(trajectoryPoint(rest, history_[index].association.match));
   }
+  setFlags(online_);
   Result result;
-  if (smoothing == Smoothing::kBatch) result.trajectory = smoothAll();
+  if (smoothing == Smoothing::kBatch) smoothAll(result);
   if (result.trajectory.empty() && !online_.empty()) {
     result.batch_failed = smoothing == Smoothing::kBatch;
     result.trajectory = online_;
+  } else {
+    setFlags(result.trajectory);  // by the associations as they are now
   }
-  setFlags(online_);
-  setFlags(result.trajectory);
   result.online = online_;
   result.diagnostics = diagnostics_;
   result.repairs = smoother_.repairs();
@@ -318,7 +361,7 @@ Result TrajectoryGenerator::finish(Smoothing smoothing) {
 void TrajectoryGenerator::setFlags(std::vector<TrajectoryPoint>& points) const {
   std::vector<bool> has_map_factor;
   for (const HistoryNode& entry : history_) {
-    has_map_factor.push_back(diagnostics_[entry.diagnostics_index].match.accepted());
+    has_map_factor.push_back(entry.association.match.accepted());
   }
   setPoseFlags(has_map_factor, settings_, points);
 }

@@ -84,6 +84,8 @@ class ScanMatcher::Work {
     for (std::size_t i = 0; i < kept.size(); ++i) points[i] = scan.points_body[kept[i]];
     timing_.filter_s = secondsSince(start);
     answer.points = static_cast<int>(points.size());
+    answer.thinned = std::make_shared<const Scan>(
+        Scan{scan.start_ns, scan.end_ns, points, scan.sensor_position_body});
     registration_.setPoints(std::move(points), scan.sensor_position_body);
     return answer;
   }

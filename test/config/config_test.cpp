@@ -250,6 +250,7 @@ TEST(SettingsTable, EachRowIsItsOwnFieldAndSaysWhatItIs) {
 
 TEST(SettingsTable, UnitsStandAtTheEndOfTheKeys) {
   const std::map<std::string, std::string> endings = {{"m", "_m"},
+                                                      {"MB", "_mb"},
                                                       {"s", "_s"},
                                                       {"rad", "_rad"},
                                                       {"m/s", "_mps"},

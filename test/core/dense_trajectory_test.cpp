@@ -41,6 +41,17 @@ ImuBuffer imuOf(const test::SmoothMotion& motion, double from, double to) {
   return buffer;
 }
 
+DenseTrajectory denseOf(std::vector<TrajectoryPoint> nodes, ImuBuffer imu,
+                        const test::SmoothMotion& motion) {
+  Result result;
+  result.trajectory = std::move(nodes);
+  EstimatorSettings settings;
+  settings.gravity_mps2 = motion.gravity_mps2;
+  settings.max_imu_gap_s = kMaxImuGap_s;
+  settings.lost_sigma_position_m = 100;  // covariances here are of no account
+  return {result, std::move(imu), settings, kMaxGap_s};
+}
+
 double errorAt(const DenseTrajectory& dense, const test::SmoothMotion& motion, double t) {
   const auto point = dense.at(nsFromSeconds(t));
   if (!point) return 1e9;
@@ -52,16 +63,14 @@ TEST(DenseTrajectory, FollowsTheMotionBetweenNodes) {
   test::SmoothMotion motion;
   motion.bias_acc = Vec3(0.1, -0.2, 0.05);
   motion.bias_gyro = Vec3(0.01, 0.02, -0.01);
-  const DenseTrajectory dense(nodesOf(motion, 20, 0), imuOf(motion, 0.9, 3.1), motion.gravity_mps2,
-                              kMaxImuGap_s, kMaxGap_s);
+  const DenseTrajectory dense = denseOf(nodesOf(motion, 20, 0), imuOf(motion, 0.9, 3.1), motion);
   for (double t = 1.0; t < 2.89; t += 0.0137) EXPECT_LT(errorAt(dense, motion, t), 3e-4) << t;
 }
 
 TEST(DenseTrajectory, MeetsEveryNodeAndIsContinuousThere) {
   const test::SmoothMotion motion;
   const auto nodes = nodesOf(motion, 20, 0.01);  // nodes that the IMU does not agree with
-  const DenseTrajectory dense(nodes, imuOf(motion, 0.9, 3.1), motion.gravity_mps2, kMaxImuGap_s,
-                              kMaxGap_s);
+  const DenseTrajectory dense = denseOf(nodes, imuOf(motion, 0.9, 3.1), motion);
   for (std::size_t k = 1; k + 1 < nodes.size(); ++k) {
     const Pose node = fromMrpt(nodes[k].T_map_body);
     EXPECT_EQ(fromMrpt(dense.at(nodes[k].t_ns)->T_map_body).position, node.position);
@@ -78,8 +87,7 @@ TEST(DenseTrajectory, MeetsEveryNodeAndIsContinuousThere) {
 
 TEST(DenseTrajectory, WithoutImuItIsACubicThroughPosesAndVelocities) {
   const test::SmoothMotion motion;
-  const DenseTrajectory dense(nodesOf(motion, 20, 0), ImuBuffer(), motion.gravity_mps2,
-                              kMaxImuGap_s, kMaxGap_s);
+  const DenseTrajectory dense = denseOf(nodesOf(motion, 20, 0), ImuBuffer(), motion);
   for (double t = 1.0; t < 2.89; t += 0.0137) EXPECT_LT(errorAt(dense, motion, t), 5e-3) << t;
 }
 
@@ -88,9 +96,8 @@ TEST(DenseTrajectory, AnswersOnlyWhereItKnows) {
   auto nodes = nodesOf(motion, 20, 0);
   nodes.erase(nodes.begin() + 5, nodes.begin() + 12);
   nodes[3].flag = PoseFlag::kCoasting;
-  const DenseTrajectory with_imu(nodes, imuOf(motion, 0.9, 3.1), motion.gravity_mps2, kMaxImuGap_s,
-                                 kMaxGap_s);
-  const DenseTrajectory without(nodes, ImuBuffer(), motion.gravity_mps2, kMaxImuGap_s, kMaxGap_s);
+  const DenseTrajectory with_imu = denseOf(nodes, imuOf(motion, 0.9, 3.1), motion);
+  const DenseTrajectory without = denseOf(nodes, ImuBuffer(), motion);
   EXPECT_FALSE(with_imu.at(nsFromSeconds(0.99)));
   EXPECT_FALSE(with_imu.at(nsFromSeconds(2.91)));
   EXPECT_TRUE(with_imu.at(nsFromSeconds(1.8))) << "the IMU bridges a hole of 0.8 s";
@@ -100,10 +107,41 @@ TEST(DenseTrajectory, AnswersOnlyWhereItKnows) {
   EXPECT_NEAR(with_imu.at(nsFromSeconds(1.05))->covariance(0, 0), 1.5, 1e-6);
 }
 
+TEST(DenseTrajectory, GrowsUnsureInAGapAndSaysSo) {
+  const test::SmoothMotion motion;
+  auto nodes = nodesOf(motion, 30, 0);
+  for (TrajectoryPoint& node : nodes) node.covariance = 1e-8 * Mat6::Identity();
+  nodes.erase(nodes.begin() + 5, nodes.begin() + 25);
+  const DenseTrajectory dense = denseOf(nodes, imuOf(motion, 0.9, 4.1), motion);
+  const auto sigmaAt = [&](double t) {
+    return std::sqrt(dense.at(nsFromSeconds(t))->covariance(0, 0));
+  };
+  const double middle_s = 2.45;  // of the gap from 1.4 to 3.5
+  EXPECT_GT(sigmaAt(middle_s), 2e-4);
+  EXPECT_GT(sigmaAt(middle_s), sigmaAt(1.8));
+  EXPECT_NEAR(sigmaAt(1.4), 1e-4, 1e-12) << "at a node it is the node's";
+  EXPECT_NEAR(sigmaAt(1.4005), 1e-4, 1e-6) << "and beside it, too";
+  EXPECT_EQ(dense.at(nsFromSeconds(1.5))->flag, PoseFlag::kGood);
+  EXPECT_EQ(dense.at(nsFromSeconds(middle_s))->flag, PoseFlag::kCoasting);
+}
+
+TEST(DenseTrajectory, WithoutImuItAllowsForWhatThePlatformMayDo) {
+  const test::SmoothMotion motion;
+  auto nodes = nodesOf(motion, 20, 0);
+  for (TrajectoryPoint& node : nodes) node.covariance = 1e-8 * Mat6::Identity();
+  const DenseTrajectory dense = denseOf(nodes, ImuBuffer(), motion);
+  for (double t = 1.013; t < 2.89; t += 0.1) {
+    const auto point = dense.at(nsFromSeconds(t));
+    const Vec6 error = boxminus(fromMrpt(point->T_map_body), motion.pose(t));
+    for (int k = 0; k < 6; ++k) {
+      EXPECT_LT(std::abs(error[k]), 3 * std::sqrt(point->covariance(k, k))) << t;
+    }
+  }
+}
+
 TEST(DenseTrajectory, ListsTheImuStampsItCovers) {
   const test::SmoothMotion motion;
-  const DenseTrajectory dense(nodesOf(motion, 3, 0), imuOf(motion, 0.9, 3.1), motion.gravity_mps2,
-                              kMaxImuGap_s, kMaxGap_s);
+  const DenseTrajectory dense = denseOf(nodesOf(motion, 3, 0), imuOf(motion, 0.9, 3.1), motion);
   const auto stamps = dense.imuStamps();
   EXPECT_NEAR(static_cast<double>(stamps.size()), 41, 1);
   for (const TimeNs t : stamps) EXPECT_TRUE(dense.at(t).has_value());

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <limits>
 #include <random>
+#include <set>
 
 #include "paloc/core/mrpt_pose.h"
 #include "smooth_motion.h"
@@ -61,6 +63,7 @@ struct Simulation {
   EstimatorSettings settings;
   bool with_imu = true, with_odometry = true, with_initial_pose = true;
   double duration_s = 20;
+  double odometry_scale = 1;  // of its positions
 
   Simulation() {
     motion.bias_acc = Vec3(0.03, -0.02, 0.05);
@@ -89,6 +92,9 @@ struct Simulation {
     OdometryFrame frame;
     frame.t_ns = nsFromSeconds(f * kFrame_s);
     frame.T_odom_body = toMrpt(motion.pose(kFrame_s).inverse() * motion.pose(f * kFrame_s));
+    frame.T_odom_body.x(odometry_scale * frame.T_odom_body.x());
+    frame.T_odom_body.y(odometry_scale * frame.T_odom_body.y());
+    frame.T_odom_body.z(odometry_scale * frame.T_odom_body.z());
     frame.continues = with_odometry && f > 1;
     frame.motion_covariance.diagonal() << Vec3::Constant(1e-4), Vec3::Constant(1e-5);
     auto scan = std::make_shared<Scan>();
@@ -173,6 +179,83 @@ TEST(TrajectoryGenerator, SaysWhyThereIsNoTrajectory) {
   result = simulation.run();
   EXPECT_TRUE(result.trajectory.empty());
   EXPECT_NE(result.no_trajectory_reason.find("low overlap"), std::string::npos);
+}
+
+TEST(TrajectoryGenerator, OdometryGoesOnAcrossAFrameThatCannotBeUsed) {
+  Simulation simulation;
+  simulation.with_imu = false;
+  TrajectoryGenerator generator(simulation.settings, simulation.matcher);
+  generator.setInitialPose(toMrpt(simulation.motion.pose(kFrame_s)));
+  // Only the first scan finds the map: all else hangs on the odometry.
+  simulation.matcher->available = [](double t) { return t < 0.15; };
+  for (int f = 1; f <= 100; ++f) {
+    OdometryFrame frame = simulation.frameAt(f);
+    if (f % 10 == 5) frame.T_odom_body.x(std::numeric_limits<double>::quiet_NaN());
+    generator.add(frame);
+  }
+  EXPECT_EQ(generator.unused().total(), 10u);
+  const Result result = generator.finish();
+  ASSERT_EQ(result.trajectory.size(), 90u);
+  for (const FrameDiagnostics& row : result.diagnostics) {
+    EXPECT_TRUE(row.has_odometry_factor || &row == &result.diagnostics.front());
+  }
+  // Without the way that the lost frames cover, each of them would cost some ten centimetres.
+  EXPECT_LT(simulation.rmse(result.trajectory), 2 * kMapSigma_m);
+}
+
+/// Refuses scans from 5 s to 9 s when it first sees them; then it knows them from near the truth.
+class LateMatcher : public TruthMatcher {
+ public:
+  explicit LateMatcher(const test::SmoothMotion& motion) : TruthMatcher(motion), motion_(motion) {}
+  MapMatch match(const Scan& scan, const mrpt::poses::CPose3D& guess, double sigma_position,
+                 double sigma_rotation) override {
+    MapMatch m = TruthMatcher::match(scan, guess, sigma_position, sigma_rotation);
+    m.thinned = std::make_shared<const Scan>(scan);
+    const double t = secondsBetween(0, scan.end_ns);
+    const Vec6 off = boxminus(fromMrpt(guess), motion_.pose(t));
+    const bool first_time = seen_.insert(scan.end_ns).second;
+    if (t > 5 && t < 9 && (first_time || off.head<3>().norm() > 0.5)) {
+      m.refusal = MatchRefusal::kLowOverlap;
+    }
+    return m;
+  }
+  MapMatch locate(const Scan& scan, const mrpt::poses::CPose3D& rough) override {
+    return match(scan, rough, 1, 1);
+  }
+
+ private:
+  std::set<TimeNs> seen_;
+  const test::SmoothMotion& motion_;
+};
+
+TEST(TrajectoryGenerator, AssociatesAnewWhereSmoothingMovedThePoses) {
+  Simulation simulation;
+  simulation.with_imu = false;
+  simulation.duration_s = 14;
+  simulation.odometry_scale = 1.3;
+  simulation.settings.rematch_position_m = 0.01;
+  const auto runAnew = [&] {
+    simulation.matcher = std::make_shared<LateMatcher>(simulation.motion);
+    return simulation.run();
+  };
+  const Result result = runAnew();
+  std::size_t refused = 0;
+  for (const FrameDiagnostics& row : result.diagnostics) refused += row.match.accepted() ? 0 : 1;
+  EXPECT_GT(refused, 20u);
+  EXPECT_GT(result.rematched.gained, refused / 2);
+  EXPECT_EQ(result.rematched.withdrawn, 0u);
+  EXPECT_EQ(result.rematched.not_kept, 0u);
+  EXPECT_EQ(result.repairs.total(), 0u);
+
+  simulation.settings.max_rematch_rounds = 0;
+  const Result once = runAnew();
+  EXPECT_EQ(once.rematched.tried, 0u);
+  EXPECT_LT(simulation.rmse(result.trajectory), 0.7 * simulation.rmse(once.trajectory));
+
+  simulation.settings.max_rematch_rounds = 3;
+  simulation.settings.rematch_memory_mb = 0;
+  const Result no_memory = runAnew();
+  EXPECT_EQ(no_memory.rematched.gained, result.rematched.gained) << "refused scans are kept";
 }
 
 TEST(TrajectoryGenerator, StartsLateWhenTheFirstScansAreRefused) {

@@ -39,7 +39,9 @@ TEST(ReadStamps, NamesFileAndLineOfWhatIsWrong) {
 TEST(PosesAt, CountsInstantsWithoutAnAnswer) {
   std::vector<TrajectoryPoint> nodes(3);
   for (std::size_t k = 0; k < nodes.size(); ++k) nodes[k].t_ns = nsFromSeconds(0.1 * double(k));
-  const DenseTrajectory dense(nodes, ImuBuffer(), 9.81, 0.05, 0.5);
+  Result result;
+  result.trajectory = nodes;
+  const DenseTrajectory dense(result, ImuBuffer(), EstimatorSettings(), 0.5);
   const DensePoses poses = posesAt(
       dense, {nsFromSeconds(-0.1), nsFromSeconds(0.05), nsFromSeconds(0.2), nsFromSeconds(0.3)});
   EXPECT_EQ(poses.points.size(), 2u);

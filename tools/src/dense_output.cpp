@@ -49,12 +49,6 @@ DensePoses posesAt(const DenseTrajectory& trajectory, const std::vector<TimeNs>&
   return poses;
 }
 
-DenseTrajectory denseTrajectory(const std::vector<TrajectoryPoint>& trajectory,
-                                const ImuBuffer& imu, const Config& config) {
-  return DenseTrajectory(trajectory, imu, config.estimator.gravity_mps2,
-                         config.estimator.max_imu_gap_s, config.frontend.max_odometry_gap_s);
-}
-
 std::string writeDensePoses(const ResultFolder& folder, const std::string& name,
                             const DensePoses& poses) {
   writeTum(folder.file((name + ".tum").c_str()), stampedPoses(poses.points));

@@ -153,7 +153,8 @@ class ReplayCommand : public Command {
   std::string writeDense(const ResultFolder& folder, const Config& config,
                          const ReplayOutcome& outcome) const {
     if (!options_.keep_imu || outcome.result.trajectory.empty()) return {};
-    const DenseTrajectory dense = denseTrajectory(outcome.result.trajectory, outcome.imu, config);
+    const DenseTrajectory dense(outcome.result, outcome.imu, config.estimator,
+                                config.frontend.max_odometry_gap_s);
     std::string told;
     if (rate_ == "imu") {
       told += "at IMU rate      " +

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "paloc/core/text.h"
 #include "paloc/tools/peak_memory.h"
 #include "paloc/tools/report_summary.h"
 #include "paloc/tools/verdict.h"
@@ -101,6 +102,11 @@ nlohmann::ordered_json summaryJson(const ReplayOutcome& outcome) {
       {"map_tilt_rad", {{"estimate", summary.map_tilt_rad}, {"sigma", summary.map_tilt_sigma_rad}}},
       {"map", {{"points", outcome.prior_map_points}, {"planar", outcome.prior_map_planar}}},
       {"map_factors", {{"used", summary.map_factors_used}, {"refused", refusalsJson(summary)}}},
+      {"rematched",
+       {{"tried", result.rematched.tried},
+        {"gained", result.rematched.gained},
+        {"withdrawn", result.rematched.withdrawn},
+        {"not_kept", result.rematched.not_kept}}},
       {"unused", unused},
       {"notes", outcome.notes},
       {"problems", outcome.end.problems},
@@ -122,6 +128,11 @@ std::string summaryText(const ReplayOutcome& outcome) {
   out += "map factors      " + std::to_string(summary.map_factors_used) + " used";
   for (const auto& [reason, count] : summary.refusals) {
     out += ", " + std::to_string(count) + " refused (" + reason + ")";
+  }
+  if (outcome.result.rematched.tried > 0) {
+    const RematchCounts& anew = outcome.result.rematched;
+    out += text("\nassociated anew  ", anew.tried, " times as smoothing moved their poses, ",
+                anew.gained, " gained, ", anew.withdrawn, " withdrawn");
   }
   out += "\nat rest          " + std::to_string(summary.frames_at_rest) + " scans\n";
   if (summary.poses > 0) {

@@ -14,6 +14,8 @@ struct BatchSummary {
   int iterations = 0;
   double initial_cost = 0, final_cost = 0;  ///< robust, whitened; 1
   std::vector<StateMatrix> covariances;     ///< of every node, at the solution
+  /// Of every node (rows) with the one after it (columns): one less.
+  std::vector<StateMatrix> covariances_with_next;
 };
 
 /// Smooths a whole recording at once: Levenberg-Marquardt (Marquardt's scaling) over all nodes,

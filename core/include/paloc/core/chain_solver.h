@@ -49,6 +49,11 @@ class PALOC_EXPORT ChainSolver {
   StateMatrix newestCovariance() const;
   /// Covariances of all blocks from `first` to the end, in order (Takahashi's recursion by blocks).
   std::vector<StateMatrix> covariances(std::size_t first = 0) const;
+  /// Of all blocks, and of each (rows) with the one after it (columns): one less.
+  struct JointCovariances {
+    std::vector<StateMatrix> own, with_next;
+  };
+  JointCovariances jointCovariances() const;
   /// Covariance of block `first` alone, by the same recursion.
   StateMatrix covariance(std::size_t first) const;
 

@@ -31,6 +31,14 @@ struct EstimatorSettings {
   /// time are one measurement together, and each gets its share of the information.
   double map_correlation_time_s = 10.0;
 
+  // Smoothing at the end associates scans with the map anew whose poses moved further than this,
+  // and smooths again, so many times at most.
+  double rematch_position_m = 0.05;
+  double rematch_rotation_rad = 0.01;
+  int max_rematch_rounds = 3;
+  /// Thinned scans kept for that; beyond it only those that were refused or left a direction open.
+  double rematch_memory_mb = 1000;
+
   int max_start_attempts = 50;  ///< scans tried from the initial pose before giving up
   int relocate_after_refusals =
       10;                          ///< map factors refused in a row before a start is searched anew

@@ -3,6 +3,7 @@
 #include <mrpt/poses/CPose3D.h>
 
 #include <array>
+#include <memory>
 #include <string>
 
 #include "paloc/core/export.h"
@@ -56,6 +57,8 @@ struct MapMatch {
   double residual_rms_m = 0;     ///< of the inliers
   double residual_median_m = 0;  ///< of the absolute residuals of the matched
   int iterations = 0;
+  /// The points that were tried, enough to match the scan again; null if there is no such need.
+  std::shared_ptr<const Scan> thinned;
 
   bool accepted() const { return refusal == MatchRefusal::kNone; }
 };

@@ -10,6 +10,7 @@
 
 #include "paloc/core/export.h"
 #include "paloc/core/map_matcher.h"
+#include "paloc/core/state.h"
 #include "paloc/core/time.h"
 #include "paloc/core/types.h"
 
@@ -64,12 +65,24 @@ struct RepairCounts {
   std::uint64_t total() const { return damped + factors_dropped + reanchored; }
 };
 
+/// What smoothing at the end changed in the associations with the map.
+struct RematchCounts {
+  std::size_t tried = 0;      ///< scans associated anew, since their poses had moved
+  std::size_t gained = 0;     ///< refused before, used now
+  std::size_t withdrawn = 0;  ///< used before, refused now
+  std::size_t not_kept = 0;   ///< scans that could not be tried, for want of the memory allowed
+};
+
 /// Everything that a run of the estimator leaves.
 struct Result {
-  std::vector<TrajectoryPoint> trajectory;    ///< in order of time; the one to use
+  std::vector<TrajectoryPoint> trajectory;  ///< in order of time; the one to use
+  /// Of the whole state of every point of `trajectory`, as the smoother tells it, and of each
+  /// (rows) with the one after it (columns): for poses in between. Empty if it is the online one.
+  std::vector<StateMatrix> covariances, covariances_with_next;
   std::vector<TrajectoryPoint> online;        ///< as it left the fixed-lag window
   std::vector<FrameDiagnostics> diagnostics;  ///< one per odometry frame, same order
   RepairCounts repairs;
+  RematchCounts rematched;
   std::string no_trajectory_reason;  ///< one sentence if `trajectory` is empty
   bool batch_failed = false;  ///< `trajectory` is the online one, since smoothing at the end failed
   std::uint64_t frames_before_start = 0;  ///< odometry frames before the first pose was found

@@ -4,9 +4,11 @@
 #include <optional>
 #include <vector>
 
+#include "paloc/core/batch_smoother.h"
 #include "paloc/core/estimator_settings.h"
 #include "paloc/core/fixed_lag_smoother.h"
 #include "paloc/core/imu_buffer.h"
+#include "paloc/core/map_association.h"
 #include "paloc/core/map_matcher.h"
 #include "paloc/core/odometry_frame.h"
 #include "paloc/core/stage_timer.h"
@@ -52,6 +54,7 @@ class PALOC_EXPORT TrajectoryGenerator {
   struct HistoryNode {
     ChainNode node;                     // with the factors as they were given, for the batch
     std::size_t diagnostics_index = 0;  // its row
+    MapAssociation association;
   };
 
   void addImu(const ImuSample& sample);
@@ -64,10 +67,13 @@ class PALOC_EXPORT TrajectoryGenerator {
                       ChainNode& node, FrameDiagnostics& row) const;
   void addMapFactor(const MapMatch& match, double since_last_s, ChainNode& node) const;
   void addStationaryFactors(TimeNs since_ns, bool rested_before, ChainNode& node) const;
-  void append(ChainNode node, FrameDiagnostics row);
+  bool append(ChainNode node, FrameDiagnostics row);
+  OdometryFrame sinceLastNode(const OdometryFrame& frame) const;
+  void rememberOdometry(const Pose& T_odom_body);
   void collectLeft();
-  TrajectoryPoint pointOf(const NodeEstimate& estimate, std::size_t history_index) const;
-  std::vector<TrajectoryPoint> smoothAll();
+  void smoothAll(Result& result);
+  bool associateAllAnew(const BatchSummary& batch, std::vector<ChainNode>& nodes,
+                        RematchCounts& counts);
   void setFlags(std::vector<TrajectoryPoint>& points) const;
 
   EstimatorSettings settings_;
@@ -76,9 +82,12 @@ class PALOC_EXPORT TrajectoryGenerator {
   ImuBuffer imu_;
   StillnessDetector stillness_;
   FixedLagSmoother smoother_;
+  KeptScans scans_;
   std::optional<Pose> T_map_body_initial_;
   std::optional<Pose> T_odom_body_first_;  // of the first frame, which the initial pose belongs to
-  Pose T_odom_body_last_;
+  Pose T_odom_body_last_;                  // of the last node; before the start, of the last frame
+  Mat6 motion_skipped_ = Mat6::Zero();     // covariance of the frames since that gave no node
+  bool odometry_broken_ = false;           // one of these began a new stream
   Pose motion_since_first_;
   int start_attempts_ = 0;
   int refusals_in_a_row_ = 0;

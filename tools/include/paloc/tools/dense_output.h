@@ -25,10 +25,6 @@ struct DensePoses {
 /// The trajectory at the instants asked for.
 DensePoses posesAt(const DenseTrajectory& trajectory, const std::vector<TimeNs>& stamps);
 
-/// The dense form of a finished run's trajectory, by the settings it was made with.
-DenseTrajectory denseTrajectory(const std::vector<TrajectoryPoint>& trajectory,
-                                const ImuBuffer& imu, const Config& config);
-
 /// Writes NAME.tum and NAME_cov.csv; returns a line that tells how many poses there are. Throws
 /// IoError.
 std::string writeDensePoses(const ResultFolder& folder, const std::string& name,
