@@ -13,6 +13,8 @@ std::vector<Setting> mapSettings() {
            "None of them lies further away than this.");
   s.number("plane_max_thickness_m", &S::plane_max_thickness_m, "m", {1e-4, 1},
            "A patch whose standard deviation across the plane exceeds this is not planar.");
+  s.flag("side_file", &S::side_file,
+         "Keep planes and index in the file MAP.paloc beside the map, for the next start.");
   s.count("threads", &S::threads, {1, 64},
           "Threads that fit the planes; no influence on the result.");
   return std::move(s).rows();

@@ -1,14 +1,12 @@
 #include "map_thinning.h"
 
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <sstream>
-#include <utility>
 
 #include "paloc/core/errors.h"
 #include "parallel_chunks.h"
+#include "radix_sort.h"
 #include "voxel_key.h"
 
 namespace paloc {
@@ -16,14 +14,6 @@ namespace {
 
 constexpr std::size_t kChunk = 65536;
 constexpr double kOrderEdgeM = 0.05;  // of the curve's voxels when nothing is thinned
-
-struct Keyed {
-  std::uint64_t key;
-  std::uint32_t index;
-  bool operator<(const Keyed& other) const {
-    return key != other.key ? key < other.key : index < other.index;
-  }
-};
 
 struct Corner {
   float x, y, z;
@@ -48,23 +38,64 @@ Corner lowCorner(const PointCloud& cloud, double edge, const std::string& name) 
   return {low.x, low.y, low.z};
 }
 
-std::vector<Keyed> sortedKeys(const PointCloud& cloud, double edge, const Corner& low,
-                              tbb::task_arena& arena) {
-  std::vector<Keyed> keyed(cloud.size());
+std::vector<KeyedIndex> sortedKeys(const PointCloud& cloud, double edge, const Corner& low,
+                                   tbb::task_arena& arena) {
+  std::vector<KeyedIndex> keyed(cloud.size());
+  std::vector<std::uint64_t> largest(chunkCount(cloud.size(), kChunk));
   const double inverse = 1 / edge;
   const auto number = [inverse](float value, float from) {
     return static_cast<std::uint64_t>((static_cast<double>(value) - static_cast<double>(from)) *
                                       inverse);
   };
-  forEachChunk(arena, cloud.size(), kChunk, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Point3f& p = cloud.points[i];
-      keyed[i] = {mortonKey(number(p.x, low.x), number(p.y, low.y), number(p.z, low.z)),
-                  static_cast<std::uint32_t>(i)};
-    }
-  });
-  arena.execute([&] { tbb::parallel_sort(keyed.begin(), keyed.end()); });
+  forEachChunk(
+      arena, cloud.size(), kChunk, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          const Point3f& p = cloud.points[i];
+          keyed[i] = {mortonKey(number(p.x, low.x), number(p.y, low.y), number(p.z, low.z)),
+                      static_cast<std::uint32_t>(i)};
+          largest[chunk] = std::max(largest[chunk], keyed[i].key);
+        }
+      });
+  radixSort(keyed, *std::max_element(largest.begin(), largest.end()), arena);
   return keyed;
+}
+
+/// The mean of points that come one after the other.
+class Mean {
+ public:
+  void add(const Point3f& p) {
+    x_ += static_cast<double>(p.x);
+    y_ += static_cast<double>(p.y);
+    z_ += static_cast<double>(p.z);
+    ++count_;
+  }
+  Point3f value() const {
+    const double inverse = 1 / static_cast<double>(count_);
+    return {static_cast<float>(x_ * inverse), static_cast<float>(y_ * inverse),
+            static_cast<float>(z_ * inverse)};
+  }
+
+ private:
+  double x_ = 0, y_ = 0, z_ = 0;
+  std::size_t count_ = 0;
+};
+
+// The means of the runs of one key that begin in [begin, end).
+std::vector<Point3f> meansOfRuns(const PointCloud& cloud, const std::vector<KeyedIndex>& keyed,
+                                 bool merge, std::size_t begin, std::size_t end) {
+  std::vector<Point3f> means;
+  means.reserve(end - begin);
+  std::size_t at = begin;
+  while (merge && at > 0 && at < end && keyed[at].key == keyed[at - 1].key) ++at;
+  while (at < end) {
+    const std::uint64_t key = keyed[at].key;
+    Mean mean;
+    do {
+      mean.add(cloud.points[keyed[at++].index]);
+    } while (merge && at < keyed.size() && keyed[at].key == key);
+    means.push_back(mean.value());
+  }
+  return means;
 }
 
 }  // namespace
@@ -72,23 +103,20 @@ std::vector<Keyed> sortedKeys(const PointCloud& cloud, double edge, const Corner
 std::vector<Point3f> thinAlongMortonCurve(const PointCloud& cloud, double voxel_m,
                                           tbb::task_arena& arena, const std::string& name) {
   const double edge = voxel_m > 0 ? voxel_m : kOrderEdgeM;
-  const std::vector<Keyed> keyed = sortedKeys(cloud, edge, lowCorner(cloud, edge, name), arena);
-  std::vector<Point3f> kept;
-  kept.reserve(cloud.size());
-  for (std::size_t begin = 0, end = 0; begin < keyed.size(); begin = end) {
-    double x = 0, y = 0, z = 0;
-    end = begin;
-    do {
-      const Point3f& p = cloud.points[keyed[end].index];
-      x += static_cast<double>(p.x);
-      y += static_cast<double>(p.y);
-      z += static_cast<double>(p.z);
-      ++end;
-    } while (voxel_m > 0 && end < keyed.size() && keyed[end].key == keyed[begin].key);
-    const double inverse = 1 / static_cast<double>(end - begin);
-    kept.push_back({static_cast<float>(x * inverse), static_cast<float>(y * inverse),
-                    static_cast<float>(z * inverse)});
-  }
+  const std::vector<KeyedIndex> keyed =
+      sortedKeys(cloud, edge, lowCorner(cloud, edge, name), arena);
+  std::vector<std::vector<Point3f>> parts(chunkCount(keyed.size(), kChunk));
+  forEachChunk(arena, keyed.size(), kChunk,
+               [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+                 parts[chunk] = meansOfRuns(cloud, keyed, voxel_m > 0, begin, end);
+               });
+  std::vector<std::size_t> starts{0};
+  for (const auto& part : parts) starts.push_back(starts.back() + part.size());
+  std::vector<Point3f> kept(starts.back());
+  forEachChunk(arena, parts.size(), 1, [&](std::size_t part, std::size_t, std::size_t) {
+    std::copy(parts[part].begin(), parts[part].end(),
+              kept.begin() + static_cast<std::ptrdiff_t>(starts[part]));
+  });
   return kept;
 }
 

@@ -1,8 +1,12 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <vector>
 
+#include "lanes4.h"
 #include "paloc/map/map_plane.h"
+#include "plane_moments.h"
 
 namespace paloc {
 namespace {
@@ -13,45 +17,35 @@ constexpr double kMinWidthToLength = 0.15;  // below: a line, whose normal is fr
 constexpr double kMaxOwnOffset = 3.0;       // of the point itself, in thicknesses
 constexpr double kMinGapToSpread = 2.0;     // two faces: the gap against the spread of either side
 constexpr float kNotPlanar = -1.0F;
-
-struct Moments {
-  Vec3 centroid = Vec3::Zero();
-  Vec3 normal = Vec3::Zero();
-  Vec3 variances = Vec3::Zero();  // ascending
-  int count = 0;
-};
+// A face among several: heights over it, in thicknesses of a clean surface; points that planes are
+// tried through; sine of the angle between two of them; the share of the points that must lie on
+// it; its square thickness at most, in that of a clean surface.
+constexpr double kConsensusWithin = 3, kConsensusShare = 0.5, kConsensusClean = 2.25;
+constexpr std::size_t kConsensusPoints = 8;
+constexpr float kConsensusSine = 0.3F;
 
 Vec3 toVec(const Point3f& p) {
   return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
 }
 
 // Moments of the points whose height over the plane (in `heights`, empty: all) lies in [low, high].
-Moments moments(std::span<const Point3f> points, std::span<const float> heights, float low,
-                float high) {
-  double sx = 0, sy = 0, sz = 0, xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-  Moments m;
+PlaneMoments moments(std::span<const Point3f> points, std::span<const float> heights, float low,
+                     float high) {
+  MomentSums sums{};
+  int count = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!heights.empty() && (heights[i] < low || heights[i] > high)) continue;
     const Vec3 p = toVec(points[i]);
-    sx += p.x(), sy += p.y(), sz += p.z();
-    xx += p.x() * p.x(), xy += p.x() * p.y(), xz += p.x() * p.z();
-    yy += p.y() * p.y(), yz += p.y() * p.z(), zz += p.z() * p.z();
-    ++m.count;
+    sums[0] += p.x(), sums[1] += p.y(), sums[2] += p.z();
+    sums[3] += p.x() * p.x(), sums[4] += p.x() * p.y(), sums[5] += p.x() * p.z();
+    sums[6] += p.y() * p.y(), sums[7] += p.y() * p.z(), sums[8] += p.z() * p.z();
+    ++count;
   }
-  if (m.count < 3) return m;
-  const double inverse = 1.0 / m.count;
-  m.centroid = Vec3(sx, sy, sz) * inverse;
-  Mat3 covariance;
-  covariance << xx, xy, xz, xy, yy, yz, xz, yz, zz;
-  covariance = covariance * inverse - m.centroid * m.centroid.transpose();
-  Eigen::SelfAdjointEigenSolver<Mat3> solver;
-  solver.computeDirect(covariance);
-  m.normal = solver.eigenvectors().col(0);
-  m.variances = solver.eigenvalues().cwiseMax(0.0);
-  return m;
+  return count < 3 ? PlaneMoments() : PlaneMoments(sums, count);
 }
 
-void measureHeights(std::span<const Point3f> points, const Moments& m, std::span<float> heights) {
+void measureHeights(std::span<const Point3f> points, const PlaneMoments& m,
+                    std::span<float> heights) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     heights[i] = static_cast<float>(m.normal.dot(toVec(points[i]) - m.centroid));
   }
@@ -90,26 +84,22 @@ Band ownFace(std::span<const float> heights, float own, double clean_m) {
 
 }  // namespace
 
-MapPlane fitPlane(std::span<const Point3f> relative, float radius_m, const PlaneFitLimits& limits,
-                  std::span<float> scratch) {
+PlaneMoments::PlaneMoments(const MomentSums& sums, int points) : count(points) {
+  const double inverse = 1.0 / points;
+  centroid = Vec3(sums[0], sums[1], sums[2]) * inverse;
+  Mat3 covariance;
+  covariance << sums[3], sums[4], sums[5], sums[4], sums[6], sums[7], sums[5], sums[7], sums[8];
+  covariance = covariance * inverse - centroid * centroid.transpose();
+  Eigen::SelfAdjointEigenSolver<Mat3> solver;
+  solver.computeDirect(covariance);
+  normal = solver.eigenvectors().col(0);
+  variances = solver.eigenvalues().cwiseMax(0.0);
+}
+
+MapPlane planeOf(const PlaneMoments& m, const PlaneFitLimits& limits) {
   MapPlane plane;
   plane.thickness_m = kNotPlanar;
-  plane.radius_m = radius_m;
-  Moments m = moments(relative, {}, 0, 0);
-  if (m.count < limits.min_points) return plane;
-  if (std::sqrt(m.variances[0]) > limits.clean_thickness_m) {
-    // Two faces as far apart as the neighbourhood is wide make the normal of all its points turn:
-    // then the nearer half, which is mostly the point's own face, shows it better.
-    const Moments nearer =
-        moments(relative.first(std::max<std::size_t>(relative.size() / 2, 3)), {}, 0, 0);
-    if (nearer.variances[0] * m.variances[1] < m.variances[0] * nearer.variances[1]) m = nearer;
-    const std::span<float> heights = scratch.first(relative.size());
-    measureHeights(relative, m, heights);
-    const Band band =
-        ownFace(heights, static_cast<float>(-m.normal.dot(m.centroid)), limits.clean_thickness_m);
-    const Moments refined = moments(relative, heights, band.low, band.high);
-    if (refined.count >= limits.min_points) m = refined;
-  }
+  if (m.count < std::max(limits.min_points, 3)) return plane;
   const double thickness = std::sqrt(m.variances[0]);
   const double width = std::sqrt(m.variances[1]), length = std::sqrt(m.variances[2]);
   const double offset = m.normal.dot(m.centroid);
@@ -127,6 +117,107 @@ MapPlane fitPlane(std::span<const Point3f> relative, float radius_m, const Plane
   plane.normal_sigma_rad = static_cast<float>(thickness / (std::sqrt(m.count) * width));
   plane.points = static_cast<std::uint32_t>(m.count);
   return plane;
+}
+
+namespace {
+
+/// Counts the points that lie near to planes through the origin.
+class NearPlane {
+ public:
+  explicit NearPlane(std::span<const Point3f> points) {
+    const std::size_t whole = (points.size() + 3) / 4 * 4;
+    x_.assign(whole, kFar), y_.assign(whole, kFar), z_.assign(whole, kFar);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      x_[i] = points[i].x, y_[i] = points[i].y, z_[i] = points[i].z;
+    }
+  }
+  int count(const Eigen::Vector3f& normal, float within_m) const {
+    int sum = 0;
+    for (std::size_t at = 0; at < x_.size(); at += 4) {
+      const Float4 height = load4(x_.data() + at) * normal.x() +
+                            load4(y_.data() + at) * normal.y() + load4(z_.data() + at) * normal.z();
+      sum += std::popcount(bitsOf(height * height < within_m * within_m));
+    }
+    return sum;
+  }
+
+ private:
+  // On no plane but by chance.
+  static constexpr float kFar = 1e10F;
+  std::vector<float> x_, y_, z_;
+};
+
+// The plane through the origin and two of the nearer points that the most points lie on, if these
+// are a good part of all: one face of an edge, a corner or a thin wall.
+bool findConsensus(std::span<const Point3f> points, const PlaneFitLimits& limits,
+                   Eigen::Vector3f& normal) {
+  const auto within = static_cast<float>(kConsensusWithin * limits.clean_thickness_m);
+  const NearPlane near(points);
+  const std::size_t tried = std::min(points.size() / 2, kConsensusPoints);
+  const int needed =
+      std::max(limits.min_points + 3,
+               static_cast<int>(kConsensusShare * static_cast<double>(points.size())));
+  int most = 0;
+  for (std::size_t i = 0; i < tried; ++i) {
+    const Eigen::Vector3f a(points[i].x, points[i].y, points[i].z);
+    for (std::size_t k = i + 1; k < tried; ++k) {
+      const Eigen::Vector3f b(points[k].x, points[k].y, points[k].z);
+      const Eigen::Vector3f cross = a.cross(b);
+      const float cross_sq = cross.squaredNorm();
+      if (cross_sq < kConsensusSine * kConsensusSine * a.squaredNorm() * b.squaredNorm() ||
+          cross_sq == 0) {
+        continue;
+      }
+      const Eigen::Vector3f candidate = cross / std::sqrt(cross_sq);
+      const int count = near.count(candidate, within);
+      if (count > most) most = count, normal = candidate;
+    }
+  }
+  return most >= needed;
+}
+
+// Moments of the points near to that plane, twice, each time nearer to what was found.
+PlaneMoments consensusMoments(std::span<const Point3f> points, const PlaneFitLimits& limits,
+                              const Eigen::Vector3f& normal, std::span<float> heights) {
+  PlaneMoments m;
+  m.normal = normal.cast<double>();
+  for (int pass = 0; pass < 2; ++pass) {
+    measureHeights(points, m, heights);
+    const auto within = static_cast<float>(kConsensusWithin * limits.clean_thickness_m);
+    const PlaneMoments next = moments(points, heights, -within, within);
+    if (next.count < limits.min_points) return {};
+    m = next;
+  }
+  return m;
+}
+
+}  // namespace
+
+MapPlane fitPlane(std::span<const Point3f> relative, const PlaneFitLimits& limits,
+                  std::span<float> scratch) {
+  PlaneMoments m = moments(relative, {}, 0, 0);
+  if (m.count >= limits.min_points && std::sqrt(m.variances[0]) > limits.clean_thickness_m) {
+    Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+    const std::span<float> heights = scratch.first(relative.size());
+    if (findConsensus(relative, limits, normal)) {
+      const PlaneMoments face = consensusMoments(relative, limits, normal, heights);
+      const MapPlane plane = planeOf(face, limits);
+      if (plane.planar() && face.variances[0] <= limits.clean_thickness_m *
+                                                     limits.clean_thickness_m * kConsensusClean)
+        return plane;
+    }
+    // Two faces as far apart as the neighbourhood is wide make the normal of all its points turn:
+    // then the nearer half, which is mostly the point's own face, shows it better.
+    const PlaneMoments nearer =
+        moments(relative.first(std::max<std::size_t>(relative.size() / 2, 3)), {}, 0, 0);
+    if (nearer.variances[0] * m.variances[1] < m.variances[0] * nearer.variances[1]) m = nearer;
+    measureHeights(relative, m, heights);
+    const Band band =
+        ownFace(heights, static_cast<float>(-m.normal.dot(m.centroid)), limits.clean_thickness_m);
+    const PlaneMoments refined = moments(relative, heights, band.low, band.high);
+    if (refined.count >= limits.min_points) m = refined;
+  }
+  return planeOf(m, limits);
 }
 
 }  // namespace paloc

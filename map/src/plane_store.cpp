@@ -2,86 +2,60 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <numeric>
-
-#include "parallel_chunks.h"
 
 namespace paloc {
 namespace {
 
-constexpr std::size_t kSampled = 16384;  // points, to tell the share that has a plane
-constexpr std::size_t kTrusted = 100;    // planes among these, for an estimate
-constexpr std::size_t kChunk = 256;
+constexpr float kNormalUnit = 1.0F / 32767, kThicknessUnitM = 2e-5F, kSigmaUnitRad = 5e-6F;
+constexpr std::uint32_t kMostPoints = 127;
+
+std::int16_t packedNormal(float component) {
+  return static_cast<std::int16_t>(std::lround(component / kNormalUnit));
+}
+
+// Rounded up: no plane becomes better than it is, and none vanishes.
+std::uint16_t packed(float value, float unit) {
+  return static_cast<std::uint16_t>(std::min(std::ceil(value / unit), 65534.0F));
+}
 
 }  // namespace
 
-PlaneStore::PlaneStore(std::span<const Point3f> points, const KdTree& tree,
-                       const MapSettings& settings)
-    : points_(points),
-      tree_(tree),
-      neighbours_(static_cast<std::size_t>(std::max(settings.plane_neighbours, 3))),
-      limits_{.max_thickness_m = settings.plane_max_thickness_m},
-      max_radius_sq_(static_cast<float>(settings.plane_max_radius_m * settings.plane_max_radius_m)),
-      bytes_(std::make_unique_for_overwrite<std::byte[]>(points.size() * sizeof(MapPlane))),
-      states_(std::make_unique<std::atomic<State>[]>(points.size())) {}
+PackedPlane::PackedPlane(const MapPlane& plane)
+    : offset_m_(plane.offset_m),
+      nx_(packedNormal(plane.nx)),
+      ny_(packedNormal(plane.ny)),
+      nz_(packedNormal(plane.nz)),
+      thickness_(plane.planar() ? packed(plane.thickness_m, kThicknessUnitM) : kNotPlanar),
+      normal_sigma_(packed(plane.normal_sigma_rad, kSigmaUnitRad)),
+      points_(static_cast<std::uint8_t>(std::min(plane.points, kMostPoints))),
+      oriented_(plane.oriented ? 1 : 0) {}
 
-MapPlane PlaneStore::fit(std::uint32_t index) const {
-  thread_local std::vector<std::uint32_t> indices;
-  thread_local std::vector<float> distances, scratch;
-  thread_local std::vector<Point3f> relative;
-  indices.resize(neighbours_);
-  distances.resize(neighbours_);
-  scratch.resize(neighbours_);
-  relative.resize(neighbours_);
-  const Point3f& p = points_[index];
-  const std::size_t found = tree_.knnSearch(&p.x, neighbours_, indices.data(), distances.data());
-  std::size_t count = 0;
-  while (count < found && distances[count] <= max_radius_sq_) {
-    const Point3f& q = points_[indices[count]];
-    relative[count++] = {q.x - p.x, q.y - p.y, q.z - p.z};
-  }
-  const float radius = std::sqrt(distances[count > 0 ? count - 1 : 0]);
-  return fitPlane({relative.data(), count}, radius, limits_, scratch);
+Eigen::Vector3f PackedPlane::normal() const {
+  return Eigen::Vector3f(static_cast<float>(nx_), static_cast<float>(ny_), static_cast<float>(nz_))
+      .normalized();
 }
 
-MapPlane PlaneStore::at(std::uint32_t index) const {
-  std::byte* const place = bytes_.get() + index * sizeof(MapPlane);
+MapPlane PackedPlane::unpacked() const {
   MapPlane plane;
-  if (states_[index].load(std::memory_order_acquire) == kReady) {
-    std::memcpy(&plane, place, sizeof plane);
-    return plane;
-  }
-  plane = fit(index);
-  // One thread writes it down; another that fitted it meanwhile got the same.
-  State expected = kMissing;
-  if (states_[index].compare_exchange_strong(expected, kBeingWritten, std::memory_order_relaxed)) {
-    std::memcpy(place, &plane, sizeof plane);
-    states_[index].store(kReady, std::memory_order_release);
-  }
+  plane.thickness_m = -1;
+  if (!planar()) return plane;
+  const Eigen::Vector3f n = normal();
+  plane.nx = n.x(), plane.ny = n.y(), plane.nz = n.z();
+  plane.offset_m = offset_m_;
+  plane.thickness_m = static_cast<float>(thickness_) * kThicknessUnitM;
+  plane.normal_sigma_rad = static_cast<float>(normal_sigma_) * kSigmaUnitRad;
+  plane.points = points_;
+  plane.oriented = oriented();
   return plane;
 }
 
-std::size_t PlaneStore::countEvery(std::size_t stride, tbb::task_arena& arena) const {
-  const std::size_t looked_at = (points_.size() + stride - 1) / stride;
-  std::vector<std::size_t> planar(chunkCount(looked_at, kChunk));
-  forEachChunk(arena, looked_at, kChunk,
-               [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-                 for (std::size_t i = begin; i < end; ++i) {
-                   planar[chunk] += at(static_cast<std::uint32_t>(i * stride)).planar();
-                 }
-               });
-  return std::accumulate(planar.begin(), planar.end(), std::size_t{0});
-}
-
-std::size_t PlaneStore::countPlanar(tbb::task_arena& arena) const {
-  const std::size_t stride = std::max<std::size_t>(points_.size() / kSampled, 1);
-  const std::size_t planar = countEvery(stride, arena);
-  if (stride == 1) return planar;
-  if (planar < kTrusted) return countEvery(1, arena);
-  const std::size_t looked_at = (points_.size() + stride - 1) / stride;
-  return static_cast<std::size_t>(static_cast<double>(planar) / static_cast<double>(looked_at) *
-                                  static_cast<double>(points_.size()));
+void PackedPlane::orient(bool turn) {
+  oriented_ = 1;
+  if (!turn) return;
+  nx_ = static_cast<std::int16_t>(-nx_);
+  ny_ = static_cast<std::int16_t>(-ny_);
+  nz_ = static_cast<std::int16_t>(-nz_);
+  offset_m_ = -offset_m_;
 }
 
 }  // namespace paloc

@@ -5,19 +5,24 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
-#include "kd_tree.h"
+#include "map_side_file.h"
 #include "map_thinning.h"
 #include "paloc/core/errors.h"
+#include "paloc/core/text.h"
 #include "paloc/map/cloud_io.h"
+#include "parallel_chunks.h"
+#include "plane_fitter.h"
 #include "plane_store.h"
+#include "point_index.h"
 
 namespace paloc {
 namespace {
 
 constexpr std::size_t kMinPoints = 100;
 constexpr std::size_t kMinPlanes = 20;
-constexpr std::size_t kLeafPoints = 10;
+constexpr std::size_t kChunk = 16384;
 
 class Stopwatch {
  public:
@@ -32,64 +37,114 @@ class Stopwatch {
 }  // namespace
 
 struct PriorMap::Data {
-  Vec3 origin = Vec3::Zero();
-  std::vector<Point3f> points;
-  PointAdaptor adaptor{points};
-  std::unique_ptr<KdTree> tree;
-  std::unique_ptr<PlaneStore> planes;
+  PreparedMap map;
+  PointIndex index;  // refers to it
   Statistics statistics;
 };
 
 namespace {
 
-void describe(PriorMap::Statistics& statistics, const Vec3& origin,
-              const std::vector<Point3f>& points) {
-  Eigen::Vector3f low(points[0].x, points[0].y, points[0].z), high = low;
-  for (const Point3f& p : points) {
-    const Eigen::Vector3f v(p.x, p.y, p.z);
-    low = low.cwiseMin(v);
-    high = high.cwiseMax(v);
-  }
-  statistics.low = origin + low.cast<double>();
-  statistics.high = origin + high.cast<double>();
-  statistics.points = points.size();
+RawArray<PointBlock> blocksOf(const std::vector<Point3f>& points, tbb::task_arena& arena) {
+  RawArray<PointBlock> blocks(chunkCount(points.size(), PointBlock::kPoints));
+  forEachChunk(arena, blocks.size(), kChunk, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin * PointBlock::kPoints; i < end * PointBlock::kPoints; ++i) {
+      PointBlock& block = blocks[i / PointBlock::kPoints];
+      const std::size_t lane = i % PointBlock::kPoints;
+      const bool there = i < points.size();
+      block.x[lane] = there ? points[i].x : PointBlock::kMissing;
+      block.y[lane] = there ? points[i].y : PointBlock::kMissing;
+      block.z[lane] = there ? points[i].z : PointBlock::kMissing;
+    }
+  });
+  return blocks;
+}
+
+std::uint64_t countPlanar(const PlaneStore& planes) {
+  std::uint64_t planar = 0;
+  for (std::size_t i = 0; i < planes.size(); ++i) planar += planes[i].planar();
+  return planar;
+}
+
+void describe(const PreparedMap& map, const PointIndex& index, PriorMap::Statistics& statistics) {
+  const PointIndex::Box box = index.box();
+  statistics.low = map.origin + box.low.cast<double>();
+  statistics.high = map.origin + box.high.cast<double>();
+  statistics.points_read = map.points_read;
+  statistics.nonfinite = map.nonfinite;
+  statistics.points = map.points;
+  statistics.planar = map.planar;
+  statistics.bytes = index.bytes() + map.planes.size() * sizeof(PackedPlane);
 }
 
 }  // namespace
 
-std::shared_ptr<const PriorMap> PriorMap::load(const std::filesystem::path& file,
-                                               const MapSettings& settings) {
-  return build(loadCloud(file), settings, file.string());
+// Orders, indexes and fits.
+std::unique_ptr<PriorMap::Data> PriorMap::prepare(const PointCloud& cloud,
+                                                  const MapSettings& settings,
+                                                  const std::string& name) {
+  if (cloud.size() < kMinPoints) {
+    throw IoError(
+        text(name, " holds ", cloud.size(), " points: a prior map needs at least ", kMinPoints));
+  }
+  tbb::task_arena arena(std::max(settings.threads, 1));
+  auto data = std::make_unique<Data>();
+  PreparedMap& map = data->map;
+  const Stopwatch sorting;
+  const std::vector<Point3f> points = thinAlongMortonCurve(cloud, settings.voxel_m, arena, name);
+  map.blocks = blocksOf(points, arena);
+  data->statistics.sort_s = sorting.seconds();
+  const Stopwatch indexing;
+  data->index = PointIndex(map.blocks, points.size(), arena);
+  data->statistics.index_s = indexing.seconds();
+  const Stopwatch fitting;
+  map.planes = fitPlanes(data->index, settings, arena);
+  data->statistics.planes_s = fitting.seconds();
+  map.origin = cloud.origin;
+  map.points_read = cloud.size();
+  map.nonfinite = cloud.nonfinite_dropped;
+  map.points = points.size();
+  map.planar = countPlanar(map.planes);
+  describe(map, data->index, data->statistics);
+  if (map.planar < kMinPlanes) {
+    throw IoError(text(name, " holds no surface: of its ", map.points, " points (thinned), ",
+                       map.planar, " lie on a plane"));
+  }
+  return data;
 }
 
 std::shared_ptr<const PriorMap> PriorMap::build(const PointCloud& cloud,
                                                 const MapSettings& settings,
                                                 const std::string& name) {
-  if (cloud.size() < kMinPoints) {
-    throw IoError(name + " holds " + std::to_string(cloud.size()) +
-                  " points: a prior map needs at least " + std::to_string(kMinPoints));
-  }
+  return std::shared_ptr<const PriorMap>(new PriorMap(prepare(cloud, settings, name)));
+}
+
+std::shared_ptr<const PriorMap> PriorMap::load(const std::filesystem::path& file,
+                                               const MapSettings& settings) {
+  if (!settings.side_file) return build(loadCloud(file), settings, file.string());
   tbb::task_arena arena(std::max(settings.threads, 1));
-  auto data = std::make_unique<Data>();
-  data->origin = cloud.origin;
-  data->statistics.points_read = cloud.size();
-  data->statistics.nonfinite = cloud.nonfinite_dropped;
-  const Stopwatch sorting;
-  data->points = thinAlongMortonCurve(cloud, settings.voxel_m, arena, name);
-  data->statistics.sort_s = sorting.seconds();
-  const Stopwatch indexing;
-  data->tree = std::make_unique<KdTree>(3, data->adaptor,
-                                        nanoflann::KDTreeSingleIndexAdaptorParams(kLeafPoints));
-  data->statistics.index_s = indexing.seconds();
-  const Stopwatch fitting;
-  data->planes = std::make_unique<PlaneStore>(data->points, *data->tree, settings);
-  data->statistics.planar = data->planes->countPlanar(arena);
-  data->statistics.planes_s = fitting.seconds();
-  describe(data->statistics, data->origin, data->points);
-  if (data->statistics.planar < kMinPlanes) {
-    throw IoError(name + " holds no surface: of its " + std::to_string(data->points.size()) +
-                  " points (thinned), " + std::to_string(data->statistics.planar) +
-                  " lie on a plane");
+  const Stopwatch reading;
+  MapSideFile side_file(file, settings, arena);
+  std::unique_ptr<Data> data;
+  if (std::optional<PreparedMap> prepared = side_file.read()) {
+    const double read_s = reading.seconds();
+    const Stopwatch indexing;
+    data = std::make_unique<Data>();
+    data->map = std::move(*prepared);
+    data->index = PointIndex(data->map.blocks, data->map.points, arena);
+    data->statistics.index_s = indexing.seconds();
+    describe(data->map, data->index, data->statistics);
+    data->statistics.side_file = SideFile::kRead;
+    data->statistics.side_file_s = read_s;
+  } else {
+    const double checked_s = reading.seconds();
+    data = prepare(loadCloud(file), settings, file.string());
+    const Stopwatch writing;
+    Statistics& statistics = data->statistics;
+    statistics.side_file_note = side_file.problem();
+    const bool written = side_file.write(data->map);
+    statistics.side_file = written ? SideFile::kWritten : SideFile::kNotWritten;
+    if (!written) statistics.side_file_note = side_file.problem();
+    statistics.side_file_s = checked_s + writing.seconds();
   }
   return std::shared_ptr<const PriorMap>(new PriorMap(std::move(data)));
 }
@@ -97,17 +152,46 @@ std::shared_ptr<const PriorMap> PriorMap::build(const PointCloud& cloud,
 PriorMap::PriorMap(std::unique_ptr<const Data> data) : data_(std::move(data)) {}
 PriorMap::~PriorMap() = default;
 
-std::size_t PriorMap::size() const { return data_->points.size(); }
-const Vec3& PriorMap::origin() const { return data_->origin; }
-const Point3f& PriorMap::point(std::uint32_t index) const { return data_->points[index]; }
-MapPlane PriorMap::plane(std::uint32_t index) const { return data_->planes->at(index); }
+std::size_t PriorMap::size() const { return data_->index.size(); }
+const Vec3& PriorMap::origin() const { return data_->map.origin; }
+Point3f PriorMap::point(std::uint32_t index) const { return data_->index.point(index); }
+MapPlane PriorMap::plane(std::uint32_t index) const { return data_->map.planes[index].unpacked(); }
 const PriorMap::Statistics& PriorMap::statistics() const { return data_->statistics; }
 
+namespace {
+
+PriorMap::Nearest nearestOf(const PointIndex::Found& found) {
+  if (found.index == PointIndex::kNone) return {};
+  return {found.index, found.distance_sq};
+}
+
+Eigen::Vector3f toVec(const Point3f& p) { return {p.x, p.y, p.z}; }
+
+}  // namespace
+
 PriorMap::Nearest PriorMap::nearest(const Point3f& local, float max_distance_m) const {
-  NearestResult result{max_distance_m * max_distance_m};
-  data_->tree->findNeighbors(result, &local.x, nanoflann::SearchParams());
-  if (result.index == kNoPoint) return {};
-  return {result.index, result.distance_sq};
+  return nearestOf(data_->index.nearest(local, max_distance_m * max_distance_m));
+}
+
+PriorMap::Nearest PriorMap::nearestSeenFrom(const Point3f& viewer, const Point3f& local,
+                                            float max_distance_m, std::uint32_t hint) const {
+  const PointIndex& index = data_->index;
+  const PlaneStore& planes = data_->map.planes;
+  PointIndex::Found bound{PointIndex::kNone, max_distance_m * max_distance_m};
+  if (hint != kNoPoint) {
+    const float distance_sq = (toVec(index.point(hint)) - toVec(local)).squaredNorm();
+    if (distance_sq < bound.distance_sq) bound = {hint, distance_sq};
+  }
+  const PointIndex::Found nearer = index.nearest(local, bound.distance_sq);
+  const PointIndex::Found found = nearer.index == PointIndex::kNone ? bound : nearer;
+  if (found.index == PointIndex::kNone) return {};
+  const auto canBeSeen = [&](std::uint32_t i) {
+    return !planes[i].oriented() ||
+           planes[i].normal().dot(toVec(viewer) - toVec(index.point(i))) > 0;
+  };
+  if (canBeSeen(found.index)) return nearestOf(found);
+  const PointIndex::Found seen = index.nearest(local, max_distance_m * max_distance_m, canBeSeen);
+  return nearestOf(seen.index == PointIndex::kNone ? found : seen);
 }
 
 }  // namespace paloc

@@ -1,10 +1,11 @@
 #include "registration.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
+#include <chrono>
 #include <cmath>
+#include <utility>
 
+#include "alignment_step.h"
 #include "parallel_chunks.h"
 
 namespace paloc {
@@ -19,13 +20,32 @@ constexpr double kKernel = 3.0;  // of the Geman-McClure kernel, in robust stand
 constexpr double kInlier = 3.0;  // the same, for what counts as an inlier
 constexpr double kMadToSigma = 1.4826;
 constexpr double kConvergedM = 1e-4, kConvergedRad = 2e-5;
-constexpr double kLongestStepM = 0.5, kLongestStepRad = 0.2;
-constexpr double kAnchorSigma = 1e-4;  // m or rad: holds a free direction at the start
+// Steps below which shared errors are taken into account: the patches then hold.
+constexpr double kNearM = 5e-3, kNearRad = 1e-3;
+// Points that are enough for the first steps, for a scale on the way, and for a first look at the
+// directions.
+constexpr int kMoreRough = 3;  // further steps on these points, while the steps are long
+constexpr std::size_t kCoarsePoints = 600, kScaleSample = 600, kGlimpse = 500;
 constexpr int kMinRows = 12;
 constexpr int kRestlessIterations =
     6;  // from then on a point has to move further and further to be
 constexpr double kRestlessGrowth =
     1.5;  // matched anew, so that matches that flip back and forth settle
+
+/// Adds the time that passes until the end of its block.
+class AddTime {
+ public:
+  explicit AddTime(double& sum_s) : sum_s_(sum_s) {}
+  ~AddTime() {
+    sum_s_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  AddTime(const AddTime&) = delete;
+  AddTime& operator=(const AddTime&) = delete;
+
+ private:
+  double& sum_s_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
 
 Vec3 toVec(const Point3f& p) {
   return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
@@ -47,45 +67,12 @@ Vec6 differenceInBody(const Pose& to, const Pose& from) {
   return delta;
 }
 
-/// Directions that are held at the start, as rows of a prior.
-class Anchors {
- public:
-  void hold(const ObservedDirections& observed) {
-    axes_.clear();
-    for (std::size_t i = 0; i < 6; ++i) {
-      const MatchDirection& direction = observed.directions[i];
-      if (direction.cls != DirectionClass::kNone) continue;
-      Vec6 axis = Vec6::Zero();
-      axis.segment<3>(i < 3 ? 0 : 3) = direction.axis_body;
-      axes_.push_back(axis);
-    }
-  }
-
-  void addTo(NormalEquations& equations, const Vec6& from_start) const {
-    const double weight = 1 / (kAnchorSigma * kAnchorSigma);
-    for (const Vec6& axis : axes_) {
-      equations.information += weight * axis * axis.transpose();
-      equations.gradient += (weight * axis.dot(from_start)) * axis;
-    }
-  }
-
- private:
-  std::vector<Vec6> axes_;
-};
-
-// The Gauss-Newton step, no longer than is believed; false when there is none.
-bool solveStep(const NormalEquations& equations, Vec6& step) {
-  using Matrix = Eigen::Matrix<double, 6, 6>;
-  const Matrix information = equations.information;
-  const double floor = 1e-9 * information.diagonal().maxCoeff();
-  const Eigen::LDLT<Matrix> ldlt(information + floor * Matrix::Identity());
-  if (ldlt.info() != Eigen::Success || !ldlt.isPositive()) return false;
-  step = -ldlt.solve(Eigen::Matrix<double, 6, 1>(equations.gradient));
-  if (!step.allFinite()) return false;
-  const double longest =
-      std::max(step.head<3>().norm() / kLongestStepM, step.tail<3>().norm() / kLongestStepRad);
-  if (longest > 1) step /= longest;
-  return true;
+// Variance over its weight, of iteratively reweighted least squares with the kernel of Geman and
+// McClure: the weight is (1 + z^2/k^2)^-2.
+double robustVariance(double residual, double sigma, double scale) {
+  const double z = residual / (scale * sigma * kKernel);
+  const double spread = sigma * scale * (1 + z * z);
+  return spread * spread;
 }
 
 }  // namespace
@@ -93,23 +80,32 @@ bool solveStep(const NormalEquations& equations, Vec6& step) {
 void Registration::setPoints(std::vector<Point3f> points_body, const Vec3& sensor_position_body) {
   points_ = std::move(points_body);
   sensor_body_ = sensor_position_body;
-  matches_.assign(points_.size(), {});
+  rays_.resize(points_.size());
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Vec3 ray = toVec(points_[i]) - sensor_body_;
+    const double range = ray.norm();
+    rays_[i] = range > 0 ? Vec3(ray / range) : Vec3::Zero();
+  }
 }
 
-// The nearest map point and its plane. Planes seen edge-on are none.
-void Registration::search(Correspondence& match, const Vec3& position, const Vec3& sensor) const {
+// The nearest map point that the sensor can see and its plane. Planes seen edge-on are none.
+void Registration::search(Correspondence& match, const Vec3& position, const Point3f& sensor,
+                          float reach) const {
   match.searched_at = position;
   match.planar = false;
-  const PriorMap::Nearest nearest = map_.nearest(toPoint(position), reach_);
+  const PriorMap::Nearest nearest =
+      map_.nearestSeenFrom(sensor, toPoint(position), reach, match.map_index);
   match.near = nearest.found();
+  match.map_index = nearest.index;
   if (!nearest.found()) return;
   match.distance = std::sqrt(static_cast<double>(nearest.distance_sq));
   const MapPlane plane = map_.plane(nearest.index);
   if (!plane.planar()) return;
   match.normal = Vec3(static_cast<double>(plane.nx), static_cast<double>(plane.ny),
                       static_cast<double>(plane.nz));
-  const Vec3 ray = (position - sensor).normalized();
-  if (std::abs(match.normal.dot(ray)) < kMinIncidenceCosine) return;
+  const Vec3 ray = position - toVec(sensor);
+  const double across = match.normal.dot(ray);
+  if (across * across < kMinIncidenceCosine * kMinIncidenceCosine * ray.squaredNorm()) return;
   match.planar = true;
   match.map_point = toVec(map_.point(nearest.index));
   match.height = match.normal.dot(match.map_point) + static_cast<double>(plane.offset_m);
@@ -121,82 +117,116 @@ void Registration::search(Correspondence& match, const Vec3& position, const Vec
   match.surface_sigma = thickness;
 }
 
-void Registration::associate(const Pose& pose, double gate, int iteration) {
+// Residual and its standard deviation, from the noise of the range and of the plane.
+void Registration::measure(Correspondence& match, std::size_t point, const Vec3& position,
+                           const Mat3& rotation) const {
+  match.residual = match.normal.dot(position) - match.height;
+  match.range_factor = match.normal.dot(rotation * rays_[point]);
+  const double cosine = std::max(std::abs(match.range_factor), kNoiseCosine);
+  const double range_part = settings_.range_noise_m * cosine;
+  const double lever_sq = (position - match.map_point).squaredNorm();
+  match.sigma = std::sqrt(range_part * range_part + match.fit_variance +
+                          lever_sq * match.normal_sigma * match.normal_sigma);
+}
+
+// Seeks the planes of every stride-th point anew, where it moved, and measures their residuals.
+void Registration::associate(const Pose& pose, double gate, int iteration, std::size_t stride) {
   const double research = settings_.research_distance_m *
                           std::pow(kRestlessGrowth, std::max(iteration - kRestlessIterations, 0));
   const double research_sq = research * research;
-  const Vec3 sensor = pose * sensor_body_;
-  reach_ = static_cast<float>(gate);
-  forEachChunk(arena_, points_.size(), kChunk,
+  const Point3f sensor = toPoint(pose * sensor_body_);
+  const auto reach = static_cast<float>(gate);
+  forEachChunk(arena_, (points_.size() + stride - 1) / stride, kChunk,
                [&](std::size_t, std::size_t begin, std::size_t end) {
-                 for (std::size_t i = begin; i < end; ++i) {
+                 for (std::size_t i = begin * stride; i < points_.size() && i < end * stride;
+                      i += stride) {
                    const Vec3 position = pose * toVec(points_[i]);
                    Correspondence& match = matches_[i];
                    if ((position - match.searched_at).squaredNorm() > research_sq) {
-                     search(match, position, sensor);
+                     search(match, position, sensor, reach);
                    }
+                   if (match.planar) measure(match, i, position, pose.rotation);
                  }
                });
+  collectMatched(gate, stride);
+}
+
+void Registration::collectMatched(double gate, std::size_t stride) {
   matched_.clear();
   near_ = 0;
-  for (std::size_t i = 0; i < matches_.size(); ++i) {
+  for (std::size_t i = 0; i < matches_.size(); i += stride) {
     if (!matches_[i].near || matches_[i].distance > gate) continue;
     ++near_;
     if (matches_[i].planar) matched_.push_back(static_cast<std::uint32_t>(i));
   }
 }
 
-PlaneRow Registration::rowOf(std::size_t point, const Mat3& R_body_local, const Pose& pose) const {
-  const Correspondence& match = matches_[point];
-  PlaneRow row;
-  row.point_body = toVec(points_[point]);
-  row.normal_body = R_body_local * match.normal;
-  const Vec3 position = pose * row.point_body;
-  row.residual = match.normal.dot(position) - match.height;
-  const Vec3 ray = row.point_body - sensor_body_;
-  const double range = ray.norm();
-  row.range_factor = range > 0 ? row.normal_body.dot(ray) / range : 0;
-  row.normal_sigma = match.normal_sigma;
-  row.surface_sigma = match.surface_sigma;
-  const double cosine = std::max(std::abs(row.range_factor), kNoiseCosine);
-  const double lever = (position - match.map_point).norm() * match.normal_sigma;
-  const double range_part = settings_.range_noise_m * cosine;
-  row.variance = range_part * range_part + match.fit_variance + lever * lever;
-  return row;
-}
-
-void Registration::linearize(const Pose& pose) {
-  rows_.resize(matched_.size());
-  sigmas_.resize(matched_.size());
-  const Mat3 R_body_local = pose.rotation.transpose();
-  forEachChunk(arena_, matched_.size(), kChunk,
-               [&](std::size_t, std::size_t begin, std::size_t end) {
-                 for (std::size_t k = begin; k < end; ++k) {
-                   rows_[k] = rowOf(matched_[k], R_body_local, pose);
-                   sigmas_[k] = std::sqrt(rows_[k].variance);
-                 }
-               });
-}
-
 // Standard deviation of the residuals in units of their expected one, robustly, at least 1: data
-// that fit better than the data sheet says are not believed more than it.
-double Registration::robustScale() {
-  scratch_.resize(rows_.size());
-  for (std::size_t k = 0; k < rows_.size(); ++k) {
-    scratch_[k] = std::abs(rows_[k].residual) / sigmas_[k];
+// that fit better than the data sheet says are not believed more than it. Of many, from about
+// `sample`, evenly.
+double Registration::robustScale(std::size_t sample) {
+  const std::size_t step = std::max<std::size_t>(matched_.size() / sample, 1);
+  scratch_.clear();
+  for (std::size_t k = 0; k < matched_.size(); k += step) {
+    const Correspondence& match = matches_[matched_[k]];
+    scratch_.push_back(std::abs(match.residual) / match.sigma);
   }
   const auto middle = scratch_.begin() + static_cast<std::ptrdiff_t>(scratch_.size() / 2);
   std::nth_element(scratch_.begin(), middle, scratch_.end());
   return std::max(1.0, kMadToSigma * *middle);
 }
 
-// Iteratively reweighted least squares with the kernel of Geman and McClure: weight (1 +
-// z^2/k^2)^-2.
-void Registration::weigh(double scale) {
+// Least squares of independent residuals.
+NormalEquations Registration::plainEquations(const Pose& pose, double scale) {
+  const Mat3 R_body_local = pose.rotation.transpose();
+  std::vector<NormalEquations> parts(chunkCount(matched_.size(), kChunk));
+  forEachChunk(arena_, matched_.size(), kChunk,
+               [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+                 EquationSums sums;
+                 for (std::size_t k = begin; k < end; ++k) {
+                   const Correspondence& match = matches_[matched_[k]];
+                   sums.add(R_body_local * match.normal, toVec(points_[matched_[k]]),
+                            match.residual, 1 / robustVariance(match.residual, match.sigma, scale));
+                 }
+                 parts[chunk] = sums.equations();
+               });
+  NormalEquations sum;
+  for (const NormalEquations& part : parts) {
+    sum.information += part.information;
+    sum.gradient += part.gradient;
+  }
+  return sum;
+}
+
+PlaneRow Registration::rowOf(std::size_t point, const Mat3& R_body_local, double scale) const {
+  const Correspondence& match = matches_[point];
+  PlaneRow row;
+  row.point_body = toVec(points_[point]);
+  row.normal_body = R_body_local * match.normal;
+  row.residual = match.residual;
+  row.range_factor = match.range_factor;
+  row.normal_sigma = match.normal_sigma;
+  row.surface_sigma = match.surface_sigma;
+  row.variance = robustVariance(match.residual, match.sigma, scale);
+  return row;
+}
+
+void Registration::fillRows(const Pose& pose, double scale) {
+  rows_.resize(matched_.size());
+  const Mat3 R_body_local = pose.rotation.transpose();
+  forEachChunk(arena_, matched_.size(), kChunk,
+               [&](std::size_t, std::size_t begin, std::size_t end) {
+                 for (std::size_t k = begin; k < end; ++k) {
+                   rows_[k] = rowOf(matched_[k], R_body_local, scale);
+                 }
+               });
+}
+
+// The residuals after a step that is small enough to be linear.
+void Registration::moveRows(const Vec6& step) {
   for (std::size_t k = 0; k < rows_.size(); ++k) {
-    const double z = rows_[k].residual / (scale * sigmas_[k] * kKernel);
-    const double spread = scale * (1 + z * z);
-    rows_[k].variance = sigmas_[k] * sigmas_[k] * spread * spread;
+    rows_[k].residual += rows_[k].jacobian().dot(step);
+    matches_[matched_[k]].residual = rows_[k].residual;
   }
 }
 
@@ -214,33 +244,35 @@ void Registration::assignPatchesOnce() {
   for (std::size_t k = 0; k < rows_.size(); ++k) rows_[k].patch = patches_[k];
 }
 
-NormalEquations Registration::equations(bool shared) {
-  if (shared) {
-    assignPatchesOnce();
-    return sharedErrorEquations(rows_, shared_errors_);
+// The directions as some of the points see them; as all do, where some leave a doubt.
+ObservedDirections Registration::glimpse(const Pose& pose, double scale,
+                                         const NormalEquations& all) {
+  const std::size_t step = std::max<std::size_t>(matched_.size() / kGlimpse, 1);
+  const Mat3 R_body_local = pose.rotation.transpose();
+  std::vector<PlaneRow> some;
+  for (std::size_t k = 0; k < matched_.size(); k += step) {
+    some.push_back(rowOf(matched_[k], R_body_local, scale));
   }
-  std::vector<NormalEquations> parts(chunkCount(rows_.size(), kChunk));
-  forEachChunk(arena_, rows_.size(), kChunk,
-               [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-                 parts[chunk] = sharedErrorEquations({rows_.data() + begin, end - begin}, {});
-               });
-  NormalEquations sum;
-  for (const NormalEquations& part : parts) {
-    sum.information += part.information;
-    sum.gradient += part.gradient;
-  }
-  return sum;
+  ObservedDirections observed =
+      observeDirections(some, sharedErrorEquations(some, {}).information, noise());
+  const bool sure = std::all_of(
+      observed.directions.begin(), observed.directions.end(),
+      [](const MatchDirection& direction) { return direction.cls == DirectionClass::kFull; });
+  if (sure || step == 1) return observed;
+  fillRows(pose, scale);
+  return observeDirections(rows_, all.information, noise());
 }
 
 void Registration::summarize(double scale, Alignment& alignment) {
   alignment.near = near_;
   alignment.matched = static_cast<int>(matched_.size());
-  if (rows_.empty()) return;
+  if (matched_.empty()) return;
   double squares = 0;
-  for (std::size_t k = 0; k < rows_.size(); ++k) {
-    const double residual = std::abs(rows_[k].residual);
-    scratch_[k] = residual;
-    if (residual > kInlier * scale * sigmas_[k]) continue;
+  scratch_.clear();
+  for (const std::uint32_t point : matched_) {
+    const double residual = std::abs(matches_[point].residual);
+    scratch_.push_back(residual);
+    if (residual > kInlier * scale * matches_[point].sigma) continue;
     ++alignment.inliers;
     squares += residual * residual;
   }
@@ -250,40 +282,70 @@ void Registration::summarize(double scale, Alignment& alignment) {
   alignment.residual_median_m = *middle;
 }
 
+// A step of plain least squares on part of the points at first, on all of them later; at the end
+// of generalized least squares under shared errors. The last step is so small that the equations
+// that gave it hold after it, too.
 Alignment Registration::align(const Pose& start, const AlignSchedule& schedule) {
   Alignment alignment;
-  Pose pose = start;
+  Pose& pose = alignment.T_local_body;
+  pose = start;
   Anchors anchors;
-  bool shared = false;
+  bool rough = true, shared = false, look = true;
   double scale = 1;
   rows_.clear();
   patched_.clear();
   matches_.assign(points_.size(), {});
-  for (int i = 0; i < schedule.max_iterations; ++i) {
+  const std::size_t coarse = std::max<std::size_t>(points_.size() / kCoarsePoints, 1);
+  for (int i = 0; i < schedule.max_iterations && !alignment.converged; ++i) {
     const bool first = i < schedule.first_iterations;
-    associate(pose, first ? schedule.first_gate_m : schedule.gate_m, i);
+    {
+      const AddTime time(alignment.timing.association_s);
+      associate(pose, first ? schedule.first_gate_m : schedule.gate_m, i, rough ? coarse : 1);
+    }
     alignment.iterations = i + 1;
     if (matched_.size() < kMinRows) break;
-    linearize(pose);
-    scale = robustScale();
-    weigh(scale);
-    NormalEquations system = equations(shared);
-    alignment.information_body = system.information;
-    if (alignment.converged) break;
-    if (i == 0 || i == schedule.first_iterations) {
-      anchors.hold(observeDirections(rows_, system.information, noise()));
+    NormalEquations system;
+    {
+      const AddTime time(alignment.timing.solve_s);
+      scale = robustScale(shared ? matched_.size() : kScaleSample);
+      if (shared) {
+        fillRows(pose, scale);
+      } else {
+        system = plainEquations(pose, scale);
+      }
+    }
+    {
+      const AddTime time(alignment.timing.information_s);
+      if (shared) {
+        assignPatchesOnce();
+        system = sharedErrorEquations(rows_, shared_errors_);
+      }
+      alignment.information_body = system.information;
+      if (look) anchors.hold(glimpse(pose, scale, system));
     }
     anchors.addTo(system, differenceInBody(pose, start));
     Vec6 step;
     if (!solveStep(system, step)) break;
+    const double position = step.head<3>().norm(), rotation = step.tail<3>().norm();
+    const bool near = position < kNearM && rotation < kNearRad;
+    alignment.converged = !rough && shared == schedule.shared_errors && position < kConvergedM &&
+                          rotation < kConvergedRad;
+    if (alignment.converged && !shared) fillRows(pose, scale);
+    if (alignment.converged) moveRows(step);
     pose = movedInBody(pose, step);
-    const bool small = step.head<3>().norm() < kConvergedM && step.tail<3>().norm() < kConvergedRad;
-    if (!small || first) continue;
-    alignment.converged = shared || !schedule.shared_errors;
-    shared = schedule.shared_errors;
+    // The directions are looked at once with few points and the wide gate, once with all.
+    const bool was_rough = std::exchange(
+        rough,
+        i + 1 < schedule.first_iterations ||
+            (rough && coarse > 1 && !near && i + 1 < schedule.first_iterations + kMoreRough));
+    look = was_rough && !rough;
+    shared = schedule.shared_errors && !was_rough && (shared || near);
+  }
+  if (!alignment.converged) {
+    associate(pose, schedule.gate_m, alignment.iterations, 1);
+    fillRows(pose, scale);
   }
   summarize(scale, alignment);
-  alignment.T_local_body = pose;
   return alignment;
 }
 

@@ -22,8 +22,14 @@ struct AlignSchedule {
   bool shared_errors = true;  ///< end with generalized least squares under shared errors
 };
 
+/// Time of the parts of an alignment, over all iterations (s).
+struct AlignTiming {
+  double association_s = 0, solve_s = 0, information_s = 0;
+};
+
 /// What an alignment came to.
 struct Alignment {
+  AlignTiming timing;
   Pose T_local_body;
   bool converged = false;
   int iterations = 0;
@@ -61,41 +67,48 @@ class Registration {
 
  private:
   struct Correspondence {
-    Eigen::Vector3d searched_at = Eigen::Vector3d::Constant(1e30);  // far from any first pose
-    Vec3 normal = Vec3::Zero();                                     // of the plane, local frame
-    double height = 0;        // the plane is normal . x = height
+    Vec3 searched_at = Vec3::Constant(1e30);  // far from any first pose
+    Vec3 normal = Vec3::Zero();               // of the plane, local frame
+    double height = 0;                        // the plane is normal . x = height
+    Vec3 map_point = Vec3::Zero();
     double distance = 0;      // to the map point, when searched
     double fit_variance = 0;  // of the plane's height at its centroid
     double normal_sigma = 0;
     double surface_sigma = 0;
-    Vec3 map_point = Vec3::Zero();
+    double residual = 0, sigma = 0;  // at the last pose, unweighted
+    double range_factor = 0;         // normal . ray
+    std::uint32_t map_index = PriorMap::kNoPoint;
     bool near = false, planar = false;
   };
 
-  void associate(const Pose& pose, double gate, int iteration);
-  void search(Correspondence& match, const Vec3& position, const Vec3& sensor) const;
-  void linearize(const Pose& pose);
-  PlaneRow rowOf(std::size_t point, const Mat3& R_body_local, const Pose& pose) const;
-  double robustScale();
-  void weigh(double scale);
+  void associate(const Pose& pose, double gate, int iteration, std::size_t stride);
+  void search(Correspondence& match, const Vec3& position, const Point3f& sensor,
+              float reach) const;
+  void measure(Correspondence& match, std::size_t point, const Vec3& position,
+               const Mat3& rotation) const;
+  void collectMatched(double gate, std::size_t stride);
+  double robustScale(std::size_t sample);
+  NormalEquations plainEquations(const Pose& pose, double scale);
+  void fillRows(const Pose& pose, double scale);
+  void moveRows(const Vec6& step);
   void assignPatchesOnce();
-  NormalEquations equations(bool shared);
+  PlaneRow rowOf(std::size_t point, const Mat3& R_body_local, double scale) const;
+  ObservedDirections glimpse(const Pose& pose, double scale, const NormalEquations& all);
   void summarize(double scale, Alignment& alignment);
 
   const PriorMap& map_;
   const MatcherSettings& settings_;
   tbb::task_arena& arena_;
   std::vector<Point3f> points_;
+  std::vector<Vec3> rays_;  // unit, body frame
   Vec3 sensor_body_ = Vec3::Zero();
   std::vector<Correspondence> matches_;
   std::vector<std::uint32_t> matched_;  // points with a plane, ascending
   std::vector<PlaneRow> rows_;          // one per matched point
-  std::vector<double> sigmas_;          // standard deviation of each row's residual, unweighted
   std::vector<double> scratch_;
   std::vector<std::uint32_t> patched_;  // the matched points that have the patches below
   std::vector<int> patches_;            // of the rows
   SharedErrors shared_errors_;
-  float reach_ = 0;  // of the searches in hand (m)
   int near_ = 0;
 };
 

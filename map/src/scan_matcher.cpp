@@ -36,9 +36,7 @@ class ScanMatcher::Work {
         .first_gate_m = settings_.max_distance_m,
         .gate_m = std::min(settings_.fine_distance_m, settings_.max_distance_m),
         .max_iterations = settings_.max_iterations};
-    const auto start = std::chrono::steady_clock::now();
     const Alignment alignment = registration_.align(toLocal(guess), schedule);
-    timing_.align_s = secondsSince(start);
     fill(alignment, answer);
     if (answer.accepted() && stepTooLarge(guess, answer, sigma_position, sigma_rotation)) {
       answer.refusal = MatchRefusal::kLargeStep;
@@ -49,9 +47,7 @@ class ScanMatcher::Work {
   MapMatch locate(const Scan& scan, const Pose& rough) {
     MapMatch answer = begin(scan, rough);
     if (answer.refusal == MatchRefusal::kNoScan || tooFew(answer)) return answer;
-    const auto start = std::chrono::steady_clock::now();
     const RoughStart found = searchAround(registration_, *map_, settings_, toLocal(rough));
-    timing_.align_s = secondsSince(start);
     fill(found.alignment, answer);
     const Vec6 step = boxminus(fromMrpt(answer.T_map_body), rough);
     if (answer.accepted() && (step.head<3>().norm() > settings_.locate_max_step_m ||
@@ -98,6 +94,9 @@ class ScanMatcher::Work {
 
   void fill(const Alignment& alignment, MapMatch& answer) {
     const auto start = std::chrono::steady_clock::now();
+    timing_.association_s = alignment.timing.association_s;
+    timing_.solve_s = alignment.timing.solve_s;
+    timing_.information_s = alignment.timing.information_s;
     const Pose& local = alignment.T_local_body;
     answer.T_map_body = toMrpt(Pose{local.position + map_->origin(), local.rotation});
     answer.matched = alignment.matched;
@@ -113,7 +112,7 @@ class ScanMatcher::Work {
       answer.directions = observed.directions;
       answer.information = informationInMap(observed.information, local.rotation);
     }
-    timing_.directions_s = secondsSince(start);
+    timing_.information_s += secondsSince(start);
   }
 
   MatchRefusal gate(const Alignment& alignment, const MapMatch& answer) const {

@@ -106,9 +106,9 @@ TEST(PriorMap, SameBytesOnOneThreadAndTwo) {
   const auto two = PriorMap::build(cloud, settings);
   ASSERT_EQ(one->size(), two->size());
   for (std::uint32_t k = 0; k < one->size(); ++k) {
-    ASSERT_EQ(std::memcmp(&one->point(k), &two->point(k), sizeof(Point3f)), 0);
-    const MapPlane plane_one = one->plane(k), plane_two = two->plane(k);
-    ASSERT_EQ(std::memcmp(&plane_one, &plane_two, sizeof(MapPlane)), 0);
+    const Point3f point_one = one->point(k), point_two = two->point(k);
+    ASSERT_EQ(std::memcmp(&point_one, &point_two, sizeof(Point3f)), 0);
+    ASSERT_EQ(one->plane(k), two->plane(k));
   }
 }
 

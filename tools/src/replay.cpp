@@ -46,7 +46,7 @@ class Replay {
     return read_ahead_ ? read_ahead_->next() : source_.next();
   }
   void take(const EventBatch& batch);
-  void report(const ReplayObserver& observer, const EventBatch& batch) const;
+  void report(const ReplayObserver& observer, const EventBatch& batch);
   void finish();
   std::vector<StageTimes> allStages() const;
 
@@ -61,6 +61,7 @@ class Replay {
   ScanMap scan_map_;
   std::chrono::steady_clock::time_point reading_since_;
   std::uint64_t frames_ = 0;
+  std::vector<std::string> map_notes_;  // not yet told
   ReplayOutcome outcome_;
 };
 
@@ -71,6 +72,9 @@ void Replay::loadMap() {
   outcome_.prior_map_planar = map_->statistics().planar;
   outcome_.unused.add("point", options_.map_file.filename().string(), "not finite",
                       map_->statistics().nonfinite);
+  const std::string& note = map_->statistics().side_file_note;
+  if (!note.empty()) map_notes_.push_back(note);
+  outcome_.notes = map_notes_;
   outcome_.prior_map_sample = sampleOf(*map_);
   outcome_.prior_map_origin = map_->origin();
 }
@@ -93,10 +97,11 @@ void Replay::take(const EventBatch& batch) {
   outcome_.notes.insert(outcome_.notes.end(), batch.notes.begin(), batch.notes.end());
 }
 
-void Replay::report(const ReplayObserver& observer, const EventBatch& batch) const {
+void Replay::report(const ReplayObserver& observer, const EventBatch& batch) {
   if (!observer || (batch.frames == 0 && batch.notes.empty())) return;
   ReplayProgress progress;
-  progress.notes = batch.notes;
+  progress.notes = std::exchange(map_notes_, {});
+  progress.notes.insert(progress.notes.end(), batch.notes.begin(), batch.notes.end());
   progress.share = batch.share;
   const double elapsed_s = secondsSince(reading_since_);
   // What was read ahead while the map was loaded would make the first figures absurd.

@@ -95,6 +95,8 @@ class ReplayCommand : public Command {
     replay_->add_option("-o,--output", output_, "result folder")->capture_default_str();
     replay_->add_flag("--overwrite", overwrite_, "replace result files that are there already");
     replay_->add_flag("--json", json_, "print summary.json on standard output, and nothing else");
+    replay_->add_flag("--no-side-file", no_side_file_,
+                      "neither read nor write MAP.paloc, which makes the next start quick");
     config_.registerOn(*replay_);
     replay_->footer(kExample);
   }
@@ -104,6 +106,7 @@ class ReplayCommand : public Command {
   ExitCode run() override {
     Config config = config_.load();
     if (threads_ > 0) config.map.threads = config.matcher.threads = threads_;
+    if (no_side_file_) config.map.side_file = false;
     checkConfig(config);
     if (!init_pose_.empty()) {
       options_.T_map_body_initial = fromMrpt(parsePose(init_pose_, "--init-pose"));
@@ -192,6 +195,7 @@ class ReplayCommand : public Command {
   double to_s_ = 0;
   int threads_ = 0;
   bool overwrite_ = false, json_ = false;
+  bool no_side_file_ = false;
 };
 
 }  // namespace

@@ -15,10 +15,10 @@
 
 namespace paloc {
 
-/// The map that scans are registered to: a cloud, thinned once, with a search tree and the plane
-/// about each of its points, fitted when it is first asked for, and kept: a recording sees a part
-/// of its map only. To its user immutable: every query may be made from any thread, and the same
-/// cloud and settings give the same answers, on any number of threads and in any order of queries.
+/// The map that scans are registered to: a cloud, thinned once, with an index and the plane about
+/// each of its points. Immutable: every query may be made from any thread, and the same cloud and
+/// settings give the same answers, on any number of threads, prepared now or read from the side
+/// file.
 class PALOC_EXPORT PriorMap {
  public:
   static constexpr std::uint32_t kNoPoint = std::numeric_limits<std::uint32_t>::max();
@@ -30,17 +30,28 @@ class PALOC_EXPORT PriorMap {
     bool found() const { return index != kNoPoint; }
   };
 
+  /// What became of the side file: nothing (switched off, or the map is from no file), it was
+  /// read, (re)written, or could not be written.
+  enum class SideFile { kNone, kRead, kWritten, kNotWritten };
+
   /// What the map is made of, for reports.
   struct Statistics {
-    std::size_t points_read = 0;  ///< before thinning
-    std::size_t nonfinite = 0;    ///< points of the file left out for that
-    std::size_t points = 0;       ///< after
-    std::size_t planar = 0;  ///< of these, with a plane: of a large map, estimated from a sample
+    std::size_t points_read = 0;                   ///< before thinning
+    std::size_t nonfinite = 0;                     ///< points of the file left out for that
+    std::size_t points = 0;                        ///< after
+    std::size_t planar = 0;                        ///< of these, with a plane
     Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< bounding box in the map frame (m)
-    double sort_s = 0, index_s = 0, planes_s = 0;  ///< time of thinning, tree, first planes
+    std::size_t bytes = 0;                         ///< of memory for points, index and planes
+    double sort_s = 0, index_s = 0, planes_s = 0;  ///< time of thinning, index, planes
+    SideFile side_file = SideFile::kNone;
+    std::string side_file_note;  ///< why one could not be used or written; empty: all went well
+    double side_file_s = 0;      ///< time of checking, reading and writing it
   };
 
-  /// Reads a cloud (see loadCloud) and builds the map. Throws IoError in one sentence.
+  /// Reads a cloud (see loadCloud) and builds the map; or reads what was prepared from the same
+  /// file content with the same settings before, from the side file `FILE.paloc`. One that does not
+  /// fit or is damaged is replaced; that none can be written is no error (see Statistics). Throws
+  /// IoError in one sentence.
   static std::shared_ptr<const PriorMap> load(const std::filesystem::path& file,
                                               const MapSettings& settings);
 
@@ -58,8 +69,7 @@ class PALOC_EXPORT PriorMap {
   /// Origin of the local frame (m, in the map frame): p_map = origin + p_local. Points and queries
   /// are local, so that UTM coordinates keep their millimetres.
   const Vec3& origin() const;
-  const Point3f& point(std::uint32_t index) const;  ///< local
-  /// The first time 5 to 10 us (a search for its neighbours and a fit), then at once.
+  Point3f point(std::uint32_t index) const;  ///< local
   MapPlane plane(std::uint32_t index) const;
   const Statistics& statistics() const;
 
@@ -67,9 +77,17 @@ class PALOC_EXPORT PriorMap {
   /// one, but always the same.
   Nearest nearest(const Point3f& local, float max_distance_m) const;
 
+  /// The same among those map points that can be seen from `viewer` (local): not on the far face of
+  /// a thin wall (MapPlane::oriented). Where all are far faces, the nearest of them. `hint`: a map
+  /// point that may be near, or kNoPoint; it saves time.
+  Nearest nearestSeenFrom(const Point3f& viewer, const Point3f& local, float max_distance_m,
+                          std::uint32_t hint) const;
+
  private:
   struct Data;
   explicit PriorMap(std::unique_ptr<const Data> data);
+  static std::unique_ptr<Data> prepare(const PointCloud& cloud, const MapSettings& settings,
+                                       const std::string& name);
   std::unique_ptr<const Data> data_;
 };
 

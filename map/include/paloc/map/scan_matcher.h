@@ -30,7 +30,10 @@ class PALOC_EXPORT ScanMatcher : public MapMatcher {
 
   /// Time of the parts of the last match (s).
   struct Timing {
-    double filter_s = 0, align_s = 0, directions_s = 0;
+    double filter_s = 0;       ///< thinning the scan
+    double association_s = 0;  ///< points to planes, over all iterations
+    double solve_s = 0;        ///< residuals, weights, normal equations, steps
+    double information_s = 0;  ///< patches of shared errors, directions, covariance
   };
   const Timing& lastTiming() const;
 

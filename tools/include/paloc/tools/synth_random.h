@@ -12,7 +12,8 @@ enum class RandomPurpose : std::uint64_t {
   kImu,
   kOdometry,
   kSurvey,
-  kSurfaceBias
+  kSurfaceBias,
+  kRooms
 };
 
 /// A stream of random numbers of its own for (seed, purpose, index), so that work may be done in

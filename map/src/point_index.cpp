@@ -1,0 +1,84 @@
+#include "point_index.h"
+
+#include <algorithm>
+
+#include "parallel_chunks.h"
+
+namespace paloc {
+namespace {
+
+constexpr std::size_t kChunk = 4096;
+
+}  // namespace
+
+void PointIndex::enclose(const PointBlock& block, BoxGroup& group, std::size_t lane) {
+  const auto side = [lane](const float* values, float* low, float* high) {
+    float smallest = values[0], largest = values[0];  // the first is never missing
+    for (std::size_t i = 1; i < PointBlock::kPoints; ++i) {
+      smallest = std::min(smallest, values[i]);
+      if (values[i] < PointBlock::kMissing) largest = std::max(largest, values[i]);
+    }
+    low[lane] = smallest, high[lane] = largest;
+  };
+  side(block.x, group.low[0], group.high[0]);
+  side(block.y, group.low[1], group.high[1]);
+  side(block.z, group.low[2], group.high[2]);
+}
+
+void PointIndex::enclose(const BoxGroup& inner, BoxGroup& group, std::size_t lane) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    float smallest = inner.low[axis][0], largest = inner.high[axis][0];
+    for (std::size_t i = 1; i < kFan; ++i) {
+      smallest = std::min(smallest, inner.low[axis][i]);
+      if (inner.high[axis][i] < PointBlock::kMissing) {
+        largest = std::max(largest, inner.high[axis][i]);
+      }
+    }
+    group.low[axis][lane] = smallest, group.high[axis][lane] = largest;
+  }
+}
+
+template <typename Item>
+RawArray<PointIndex::BoxGroup> PointIndex::groupsOver(const Item* items, std::size_t count,
+                                                      tbb::task_arena& arena) {
+  RawArray<BoxGroup> groups(chunkCount(count, kFan));
+  forEachChunk(arena, groups.size(), kChunk, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t g = begin; g < end; ++g) {
+      BoxGroup& group = groups[g];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        std::fill_n(group.low[axis], kFan, PointBlock::kMissing);
+        std::fill_n(group.high[axis], kFan, PointBlock::kMissing);
+      }
+      const std::size_t last = std::min((g + 1) * kFan, count);
+      for (std::size_t i = g * kFan; i < last; ++i) enclose(items[i], group, i % kFan);
+    }
+  });
+  return groups;
+}
+
+PointIndex::PointIndex(const RawArray<PointBlock>& blocks, std::size_t points,
+                       tbb::task_arena& arena)
+    : blocks_(blocks.data()), block_count_(blocks.size()), points_(points) {
+  if (points_ == 0) return;
+  levels_.push_back(groupsOver(blocks_, block_count_, arena));
+  while (levels_.back().size() > 1) {
+    RawArray<BoxGroup> groups = groupsOver(levels_.back().data(), levels_.back().size(), arena);
+    levels_.push_back(std::move(groups));
+  }
+}
+
+std::size_t PointIndex::bytes() const {
+  std::size_t sum = block_count_ * sizeof(PointBlock);
+  for (const auto& level : levels_) sum += level.size() * sizeof(BoxGroup);
+  return sum;
+}
+
+PointIndex::Box PointIndex::box() const {
+  const BoxGroup& top = levels_.back()[0];
+  BoxGroup whole;
+  enclose(top, whole, 0);
+  return {{whole.low[0][0], whole.low[1][0], whole.low[2][0]},
+          {whole.high[0][0], whole.high[1][0], whole.high[2][0]}};
+}
+
+}  // namespace paloc
