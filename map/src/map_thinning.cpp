@@ -1,6 +1,7 @@
 #include "map_thinning.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <sstream>
 
@@ -15,12 +16,14 @@ namespace {
 constexpr std::size_t kChunk = 65536;
 constexpr double kOrderEdgeM = 0.05;  // of the curve's voxels when nothing is thinned
 
-struct Corner {
-  float x, y, z;
+/// The grid of voxels that a cloud lies in.
+struct Grid {
+  float x, y, z;  // its lowest corner
+  int bits;       // of a voxel's number along an axis
 };
 
-// The lowest corner of the cloud; throws when a 21-bit number of voxels does not span it.
-Corner lowCorner(const PointCloud& cloud, double edge, const std::string& name) {
+// Throws when a 21-bit number of voxels does not span the cloud.
+Grid gridAbout(const PointCloud& cloud, double edge, const std::string& name) {
   Point3f low = cloud.points.front(), high = low;
   for (const Point3f& p : cloud.points) {
     low.x = std::min(low.x, p.x), high.x = std::max(high.x, p.x);
@@ -35,24 +38,26 @@ Corner lowCorner(const PointCloud& cloud, double edge, const std::string& name) 
             << " m: remove stray points or set a larger voxel";
     throw IoError(message.str());
   }
-  return {low.x, low.y, low.z};
+  const auto most = static_cast<std::uint64_t>(span / edge) + 1;
+  return {low.x, low.y, low.z, static_cast<int>(std::bit_width(most))};
 }
 
-std::vector<KeyedIndex> sortedKeys(const PointCloud& cloud, double edge, const Corner& low,
+std::vector<KeyedIndex> sortedKeys(const PointCloud& cloud, double edge, const Grid& grid,
                                    tbb::task_arena& arena) {
   std::vector<KeyedIndex> keyed(cloud.size());
   std::vector<std::uint64_t> largest(chunkCount(cloud.size(), kChunk));
   const double inverse = 1 / edge;
   const auto number = [inverse](float value, float from) {
-    return static_cast<std::uint64_t>((static_cast<double>(value) - static_cast<double>(from)) *
+    return static_cast<std::uint32_t>((static_cast<double>(value) - static_cast<double>(from)) *
                                       inverse);
   };
   forEachChunk(
       arena, cloud.size(), kChunk, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
           const Point3f& p = cloud.points[i];
-          keyed[i] = {mortonKey(number(p.x, low.x), number(p.y, low.y), number(p.z, low.z)),
-                      static_cast<std::uint32_t>(i)};
+          keyed[i] = {
+              hilbertKey(number(p.x, grid.x), number(p.y, grid.y), number(p.z, grid.z), grid.bits),
+              static_cast<std::uint32_t>(i)};
           largest[chunk] = std::max(largest[chunk], keyed[i].key);
         }
       });
@@ -100,11 +105,11 @@ std::vector<Point3f> meansOfRuns(const PointCloud& cloud, const std::vector<Keye
 
 }  // namespace
 
-std::vector<Point3f> thinAlongMortonCurve(const PointCloud& cloud, double voxel_m,
-                                          tbb::task_arena& arena, const std::string& name) {
+std::vector<Point3f> thinAlongCurve(const PointCloud& cloud, double voxel_m, tbb::task_arena& arena,
+                                    const std::string& name) {
   const double edge = voxel_m > 0 ? voxel_m : kOrderEdgeM;
   const std::vector<KeyedIndex> keyed =
-      sortedKeys(cloud, edge, lowCorner(cloud, edge, name), arena);
+      sortedKeys(cloud, edge, gridAbout(cloud, edge, name), arena);
   std::vector<std::vector<Point3f>> parts(chunkCount(keyed.size(), kChunk));
   forEachChunk(arena, keyed.size(), kChunk,
                [&](std::size_t chunk, std::size_t begin, std::size_t end) {

@@ -10,11 +10,11 @@
 
 namespace paloc {
 
-/// The points of a cloud along a Morton curve through voxels of this edge, those of one voxel
+/// The points of a cloud along a Hilbert curve through voxels of this edge, those of one voxel
 /// replaced by their centroid (voxel_m = 0: all kept, as they are). Neighbours in space are near in
 /// memory, for the sake of every later search. Throws IoError (with `name`) when the cloud spans
 /// more than 2^21 voxels.
-std::vector<Point3f> thinAlongMortonCurve(const PointCloud& cloud, double voxel_m,
-                                          tbb::task_arena& arena, const std::string& name);
+std::vector<Point3f> thinAlongCurve(const PointCloud& cloud, double voxel_m, tbb::task_arena& arena,
+                                    const std::string& name);
 
 }  // namespace paloc

@@ -34,7 +34,7 @@ class RawArray {
   std::size_t size_ = 0;
 };
 
-/// Eight points that follow each other on the Morton curve, their coordinates side by side. What
+/// Eight points that follow each other on the Hilbert curve, their coordinates side by side. What
 /// is missing in the last block lies too far away to be found.
 struct PointBlock {
   static constexpr std::size_t kPoints = 8;
@@ -43,7 +43,7 @@ struct PointBlock {
 };
 static_assert(sizeof(PointBlock) == 96);
 
-/// Search in points that lie along a Morton curve. Such points are a tree already: every eight
+/// Search in points that lie along a Hilbert curve. Such points are a tree already: every eight
 /// of them a leaf, every eight leaves a node, and so on; what is kept of it is a bounding box for
 /// each leaf and node. The boxes take one pass to make (a k-d tree of nanoflann over eight million
 /// points takes about a second), and a node's eight boxes are tested side by

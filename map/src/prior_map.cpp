@@ -90,7 +90,7 @@ std::unique_ptr<PriorMap::Data> PriorMap::prepare(const PointCloud& cloud,
   auto data = std::make_unique<Data>();
   PreparedMap& map = data->map;
   const Stopwatch sorting;
-  const std::vector<Point3f> points = thinAlongMortonCurve(cloud, settings.voxel_m, arena, name);
+  const std::vector<Point3f> points = thinAlongCurve(cloud, settings.voxel_m, arena, name);
   map.blocks = blocksOf(points, arena);
   data->statistics.sort_s = sorting.seconds();
   const Stopwatch indexing;

@@ -82,6 +82,8 @@ std::map<std::string, Words> soundCalls(const test::TempDir& dir) {
       {"eval traj", {"eval", "traj", truth, truth}},
       {"config describe", {"config", "describe"}},
       {"bench smoother", {"bench", "smoother", "--problem", dir / "resting.problem"}},
+      {"bench registration",
+       {"bench", "registration", "--map-points", "20000", "--places", "2", "--threads", "1"}},
   };
 }
 
