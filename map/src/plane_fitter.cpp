@@ -18,6 +18,8 @@ constexpr float kFirstRadius = 1.6F, kRadiusGrowth = 1.5F;
 constexpr float kLeastRadiusM = 0.03F;
 // A point shares the plane of its block when it lies this near to it, in thicknesses.
 constexpr float kSharedOffset = 2.5F, kSharedOffsetM = 5e-4F;
+// And this near to the point it was fitted about, in radii: a plane is worse towards its rim.
+constexpr float kSharedReach = 0.6F;
 
 Point3f operator-(const Point3f& a, const Point3f& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 
@@ -112,7 +114,8 @@ void BlockFitter::share(std::size_t from, float radius_sq,
     const Point3f apart = points_[i] - points_[from];
     const float offset =
         plane.offset_m - (plane.nx * apart.x + plane.ny * apart.y + plane.nz * apart.z);
-    if (std::abs(offset) > near || normSq(apart) > radius_sq) continue;
+    if (std::abs(offset) > near || normSq(apart) > kSharedReach * kSharedReach * radius_sq)
+      continue;
     planes_[i] = plane;
     planes_[i].offset_m = offset;
     fitted[i] = true;
