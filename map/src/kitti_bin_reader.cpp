@@ -15,7 +15,9 @@ PointCloud readKittiBin(const InputFile& file) {
     file.fail(
         text("its ", file.size(), " bytes are no whole number of KITTI points (16 bytes each)"));
   }
-  return readRecords(file, fields, layout);
+  PointCloud cloud = readRecords(file, fields, layout);
+  cloud.format = "KITTI .bin";
+  return cloud;
 }
 
 }  // namespace paloc

@@ -245,11 +245,19 @@ PointCloud readPcd(const InputFile& file) {
   TextLines lines(file, 0, 1);
   const PcdHeader header = PcdHeaderReader(file, lines).read();
   if (*header.points == 0) file.fail("has no points");
-  if (header.data == "ascii") return readAscii(file, header, lines);
-  if (header.data == "binary") return readBinary(file, header, lines.offset());
-  if (header.data == "binary_compressed") return readCompressed(file, header, lines.offset());
-  file.fail(
-      text("its PCD data '", header.data, "' is not known (ascii, binary, binary_compressed)"));
+  PointCloud cloud;
+  if (header.data == "ascii") {
+    cloud = readAscii(file, header, lines);
+  } else if (header.data == "binary") {
+    cloud = readBinary(file, header, lines.offset());
+  } else if (header.data == "binary_compressed") {
+    cloud = readCompressed(file, header, lines.offset());
+  } else {
+    file.fail(
+        text("its PCD data '", header.data, "' is not known (ascii, binary, binary_compressed)"));
+  }
+  cloud.format = text("PCD, ", header.data);
+  return cloud;
 }
 
 }  // namespace paloc

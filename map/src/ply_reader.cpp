@@ -186,6 +186,18 @@ PointCloud readBinaryVertices(const InputFile& file, const Element& vertex,
   return readRecords(file, fields, layout);
 }
 
+std::string formatName(const PlyHeader& header) {
+  switch (header.encoding()) {
+    case Encoding::kAscii:
+      return "PLY, ascii";
+    case Encoding::kLittleEndian:
+      return "PLY, binary_little_endian";
+    case Encoding::kBigEndian:
+      return "PLY, binary_big_endian";
+  }
+  return "PLY";
+}
+
 PointCloud readTextVertices(const InputFile& file, const Element& vertex,
                             const std::vector<CloudField>& fields, TextLines& lines, bool last) {
   std::vector<std::size_t> values_before(fields.size());
@@ -222,8 +234,10 @@ PointCloud readPly(const InputFile& file) {
     std::vector<CloudField> fields;
     for (const auto& p : element.properties) fields.push_back(p.field);
     const bool last = &element == &header.elements().back();
-    return ascii ? readTextVertices(file, element, fields, lines, last)
-                 : readBinaryVertices(file, element, fields, at, big_endian, last);
+    PointCloud cloud = ascii ? readTextVertices(file, element, fields, lines, last)
+                             : readBinaryVertices(file, element, fields, at, big_endian, last);
+    cloud.format = formatName(header);
+    return cloud;
   }
   file.fail("its PLY header has no element 'vertex'");
 }

@@ -12,6 +12,7 @@ namespace paloc {
 /// A point cloud with an origin in double precision, so that UTM coordinates keep their
 /// millimetres: p = origin + points[i]. All points are finite.
 struct PointCloud {
+  std::string format;               ///< of the file that it was read from; empty if it was not
   Vec3 origin = Vec3::Zero();       ///< m, in the cloud's frame
   std::vector<Point3f> points;      ///< m, relative to `origin`
   std::vector<float> intensity;     ///< empty, or one per point

@@ -12,6 +12,7 @@ std::unique_ptr<Command> makeConfigCommand();
 std::unique_ptr<Command> makeEvalCommand();
 std::unique_ptr<Command> makeImportCommand();
 std::unique_ptr<Command> makeInfoCommand();
+std::unique_ptr<Command> makeMapCommand();
 std::unique_ptr<Command> makeReplayCommand();
 std::unique_ptr<Command> makeSynthCommand();
 

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <memory>
+
+#include "paloc/tools/command.h"
+
+namespace paloc {
+
+// One maker a sub-command of `paloc map`; the class itself stays in its source file.
+std::unique_ptr<Command> makeMapInfoCommand();
+
+}  // namespace paloc

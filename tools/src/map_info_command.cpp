@@ -1,0 +1,49 @@
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "paloc/core/errors.h"
+#include "paloc/tools/config_options.h"
+#include "paloc/tools/map_commands.h"
+#include "paloc/tools/map_info.h"
+
+namespace paloc {
+namespace {
+
+constexpr const char* kExample = R"(Example:
+  paloc map info survey.ply
+  paloc map info survey.ply --set map.voxel_m=0.1 --json
+
+Exit codes: 0 it can serve as a prior map, 2 wrong usage, 3 it cannot (the sentence says why).)";
+
+class MapInfoCommand : public Command {
+ public:
+  void registerOn(CLI::App& app) override {
+    info_ = app.add_subcommand("info", "What a map holds, and what it is worth as a prior map");
+    info_->add_option("MAP", file_, "point cloud")->required();
+    options_.registerOn(*info_);
+    info_->add_flag("--json", json_, "one JSON object on standard output");
+    info_->footer(kExample);
+  }
+
+  bool called() const override { return info_->parsed(); }
+
+  ExitCode run() override {
+    const MapInfo info = readMapInfo(file_, options_.load().map);
+    std::cout << (json_ ? jsonOf(info).dump(2) + '\n' : tableOf(info)) << std::flush;
+    if (!std::cout) throw IoError("the result could not be written to standard output");
+    return ExitCode::kGood;
+  }
+
+ private:
+  CLI::App* info_ = nullptr;
+  ConfigOptions options_;
+  std::string file_;
+  bool json_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> makeMapInfoCommand() { return std::make_unique<MapInfoCommand>(); }
+
+}  // namespace paloc
