@@ -4,7 +4,7 @@
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 
-(($# > 0)) || { echo "usage: install_packages.sh GROUP... (build, test, lint)" >&2; exit 2; }
+(($# > 0)) || { echo "usage: install_packages.sh GROUP... (build, test, lint, fuzz)" >&2; exit 2; }
 
 # Prints the packages of one group: the lines below "# GROUP: ..." up to the next comment.
 packages_of() {

@@ -2,7 +2,7 @@
 # Installs what is missing, builds, runs the tests, and prints ctest's closing lines.
 #   bash tools/test.sh [--sanitize] [--long]
 #     --sanitize  instead: the unit tests with the address and undefined-behaviour sanitizers
-#     --long      besides: clang-tidy over everything (tools/lint.sh)
+#     --long      besides: clang-tidy over everything (tools/lint.sh), every reader fuzzed for 60 s
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
@@ -35,4 +35,6 @@ ctest --test-dir $build --output-on-failure -j "$(nproc)" "${filter[@]}"
 if ((long)); then
   bash tools/install_packages.sh lint
   bash tools/lint.sh
+  bash tools/install_packages.sh fuzz
+  bash tools/fuzz.sh 60
 fi

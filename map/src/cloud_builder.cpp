@@ -124,7 +124,7 @@ CloudFields::CloudFields(const std::vector<CloudField>& fields, const InputFile&
   index[kZ] = find(fields, {"z"});
   index[kIntensity] = find(fields, {"intensity", "reflectivity", "reflectance"});
   index[kRing] = find(fields, {"ring", "laser_id", "channel"});
-  index[kTime] = find(fields, {"t", "time", "timestamp", "offset_time"});
+  index[kTime] = find(fields, {"t", "time", "timestamp", "offset_time", "gps_time"});
   for (const auto& [role, name] : {std::pair{kX, "x"}, {kY, "y"}, {kZ, "z"}}) {
     if (!has(role)) file.fail(text("its points have no field '", name, "'"));
   }
@@ -159,17 +159,35 @@ void readColumn(const Column& column, std::size_t count, double* out) {
   }
 }
 
-CloudBuilder::CloudBuilder(const InputFile& file, const CloudFields& fields, std::uint64_t rows)
-    : file_(file), fields_(fields) {
+CloudBuilder::CloudBuilder(const InputFile& file, const CloudFields& fields, std::uint64_t rows,
+                           const LoadOptions& options)
+    : file_(file),
+      fields_(fields),
+      options_(options),
+      budget_(options.memory_limit_bytes),
+      rows_(rows) {
   for (std::size_t role = 0; role < kRoles; ++role) {
     if (fields_.has(static_cast<Role>(role))) block_[role].resize(kBlockRows);
   }
-  cloud_.points.reserve(rows);
-  if (fields_.has(kIntensity)) cloud_.intensity.reserve(rows);
-  if (fields_.has(kRing)) cloud_.ring.reserve(rows);
-  if (fields_.has(kTime)) cloud_.time.reserve(rows);
+  if (options.voxel_m > 0) {
+    voxels_.emplace(options.voxel_m, budget_, file.name());
+    return;
+  }
+  reserve();
   cloud_.time_field = fields_.time_field;
   cloud_.time_is_integer = fields_.time_is_integer;
+}
+
+void CloudBuilder::reserve() {
+  std::uint64_t bytes = sizeof(Point3f);
+  if (fields_.has(kIntensity)) bytes += sizeof(float);
+  if (fields_.has(kRing)) bytes += sizeof(std::uint16_t);
+  if (fields_.has(kTime)) bytes += sizeof(double);
+  budget_.require(rows_ * bytes, text(file_.name(), ": a cloud of its ", rows_, " points"));
+  cloud_.points.reserve(rows_);
+  if (fields_.has(kIntensity)) cloud_.intensity.reserve(rows_);
+  if (fields_.has(kRing)) cloud_.ring.reserve(rows_);
+  if (fields_.has(kTime)) cloud_.time.reserve(rows_);
 }
 
 // The median of the first block, on a grid, so that a stray point at zero does not matter.
@@ -204,12 +222,33 @@ void CloudBuilder::addBlock(std::size_t rows) {
     cloud_.points.push_back(p);
     if (fields_.has(kIntensity))
       cloud_.intensity.push_back(static_cast<float>(block_[kIntensity][i]));
+    if (voxels_) continue;
     if (fields_.has(kRing)) cloud_.ring.push_back(asRing(block_[kRing][i]));
     if (fields_.has(kTime)) cloud_.time.push_back(block_[kTime][i]);
   }
+  if (voxels_) thinBlock();
+  tellProgress(rows);
+}
+
+void CloudBuilder::thinBlock() {
+  voxels_->add(cloud_.points, cloud_.intensity);
+  cloud_.points.clear();
+  cloud_.intensity.clear();
+}
+
+void CloudBuilder::tellProgress(std::size_t rows) {
+  constexpr std::uint64_t kEvery = 64 * kBlockRows;
+  const bool due = rows_done_ / kEvery != (rows_done_ + rows) / kEvery;
+  rows_done_ += rows;
+  if (!due || !options_.progress) return;
+  options_.progress(std::min(1.0, static_cast<double>(rows_done_) / static_cast<double>(rows_)));
 }
 
 PointCloud CloudBuilder::finish() {
+  cloud_.points_read = static_cast<std::size_t>(rows_done_) - cloud_.nonfinite_dropped;
+  if (voxels_) {
+    voxels_->take(cloud_.points, fields_.has(kIntensity) ? &cloud_.intensity : nullptr);
+  }
   if (cloud_.empty()) {
     if (cloud_.nonfinite_dropped == 0) file_.fail("has no points");
     file_.fail(text("none of its ", cloud_.nonfinite_dropped, " points is finite"));

@@ -3,11 +3,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "input_file.h"
-#include "paloc/map/point_cloud.h"
+#include "memory_budget.h"
+#include "paloc/map/cloud_io.h"
+#include "voxel_accumulator.h"
 
 /// What the readers of all formats share: the choice of a point's fields by name, columns of values
 /// in a block of records, and the cloud that grows out of them.
@@ -64,12 +67,15 @@ struct Column {
 /// Reads `count` values of a column as doubles.
 void readColumn(const Column& column, std::size_t count, double* out);
 
-/// Rows of doubles, one column for each role, that are turned into a PointCloud block by block.
+/// Rows of doubles, one column for each role, that are turned into a PointCloud block by block,
+/// thinned where that is asked for.
 class CloudBuilder {
  public:
   static constexpr std::size_t kBlockRows = 4096;
 
-  CloudBuilder(const InputFile& file, const CloudFields& fields, std::uint64_t rows);
+  /// Throws IoError when there is not the memory for so many rows.
+  CloudBuilder(const InputFile& file, const CloudFields& fields, std::uint64_t rows,
+               const LoadOptions& options);
 
   /// Where the values of `role` go, room for kBlockRows.
   double* column(Role role) { return block_[role].data(); }
@@ -80,11 +86,18 @@ class CloudBuilder {
 
  private:
   void chooseOrigin(std::size_t rows);
+  void reserve();
+  void thinBlock();
+  void tellProgress(std::size_t rows);
 
   const InputFile& file_;
   const CloudFields& fields_;
   std::array<std::vector<double>, kRoles> block_;
   PointCloud cloud_;
+  const LoadOptions& options_;
+  MemoryBudget budget_;
+  std::optional<VoxelAccumulator> voxels_;  ///< if the cloud is thinned: what stands there so far
+  std::uint64_t rows_, rows_done_ = 0;      ///< expected, added
   bool origin_chosen_ = false;
 };
 

@@ -5,7 +5,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstring>
 #include <system_error>
 
 #include "paloc/core/errors.h"
@@ -24,6 +26,11 @@ InputFile::InputFile(const std::filesystem::path& path) : name_(path.string()) {
   size_ = static_cast<std::uint64_t>(status.st_size);
 }
 
+InputFile::InputFile(std::string name, Pieces content)
+    : name_(std::move(name)), content_(std::move(content)) {
+  for (const auto& piece : content_) size_ += piece.size();
+}
+
 InputFile::~InputFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
@@ -31,14 +38,30 @@ InputFile::~InputFile() {
 void InputFile::readAt(std::uint64_t offset, void* out, std::size_t bytes) const {
   auto* to = static_cast<std::byte*>(out);
   while (bytes > 0) {
-    const ssize_t got = ::pread(descriptor_, to, bytes, static_cast<off_t>(offset));
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) fail(text("cannot be read: ", std::generic_category().message(errno)));
+    const std::size_t got = readSome(offset, to, bytes);
     if (got == 0) fail(text("ends at byte ", offset, ", where more was expected"));
     to += got;
-    offset += static_cast<std::uint64_t>(got);
-    bytes -= static_cast<std::size_t>(got);
+    offset += got;
+    bytes -= got;
   }
+}
+
+// At least one byte, or 0 at the end.
+std::size_t InputFile::readSome(std::uint64_t offset, void* out, std::size_t bytes) const {
+  if (descriptor_ < 0) {
+    if (offset >= size_) return 0;
+    const auto& piece = content_[static_cast<std::size_t>(offset / kPieceBytes)];
+    const auto at = static_cast<std::size_t>(offset % kPieceBytes);
+    const std::size_t there = std::min(bytes, piece.size() - at);
+    std::memcpy(out, piece.data() + at, there);
+    return there;
+  }
+  ssize_t got = 0;
+  do {
+    got = ::pread(descriptor_, out, bytes, static_cast<off_t>(offset));
+  } while (got < 0 && errno == EINTR);
+  if (got < 0) fail(text("cannot be read: ", std::generic_category().message(errno)));
+  return static_cast<std::size_t>(got);
 }
 
 void InputFile::fail(const std::string& sentence) const { throw IoError(name_ + ": " + sentence); }

@@ -5,7 +5,7 @@
 namespace paloc {
 
 // KITTI's velodyne files: records of x, y, z (m) and reflectance, float32, and nothing else.
-PointCloud readKittiBin(const InputFile& file) {
+PointCloud readKittiBin(const InputFile& file, const LoadOptions& options) {
   const std::vector<CloudField> fields{{"x"}, {"y"}, {"z"}, {"intensity"}};
   RecordLayout layout;
   layout.record_bytes = 16;
@@ -15,7 +15,7 @@ PointCloud readKittiBin(const InputFile& file) {
     file.fail(
         text("its ", file.size(), " bytes are no whole number of KITTI points (16 bytes each)"));
   }
-  PointCloud cloud = readRecords(file, fields, layout);
+  PointCloud cloud = readRecords(file, fields, layout, options);
   cloud.format = "KITTI .bin";
   return cloud;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <sstream>
 
@@ -18,11 +19,12 @@ constexpr double kOrderEdgeM = 0.05;  // of the curve's voxels when nothing is t
 
 /// The grid of voxels that a cloud lies in.
 struct Grid {
-  float x, y, z;  // its lowest corner
-  int bits;       // of a voxel's number along an axis
+  double x, y, z;  // its lowest corner
+  int bits;        // of a voxel's number along an axis
 };
 
-// Throws when a 21-bit number of voxels does not span the cloud.
+// The grid about zero, so that a cloud that was thinned already (VoxelAccumulator) falls into the
+// same voxels. Throws when a 21-bit number of voxels does not span the cloud.
 Grid gridAbout(const PointCloud& cloud, double edge, const std::string& name) {
   Point3f low = cloud.points.front(), high = low;
   for (const Point3f& p : cloud.points) {
@@ -38,8 +40,11 @@ Grid gridAbout(const PointCloud& cloud, double edge, const std::string& name) {
             << " m: remove stray points or set a larger voxel";
     throw IoError(message.str());
   }
-  const auto most = static_cast<std::uint64_t>(span / edge) + 1;
-  return {low.x, low.y, low.z, static_cast<int>(std::bit_width(most))};
+  const auto corner = [edge](float value) {
+    return std::floor(static_cast<double>(value) / edge) * edge;
+  };
+  const auto most = static_cast<std::uint64_t>(span / edge) + 2;  // it begins within a voxel
+  return {corner(low.x), corner(low.y), corner(low.z), static_cast<int>(std::bit_width(most))};
 }
 
 std::vector<KeyedIndex> sortedKeys(const PointCloud& cloud, double edge, const Grid& grid,
@@ -47,9 +52,8 @@ std::vector<KeyedIndex> sortedKeys(const PointCloud& cloud, double edge, const G
   std::vector<KeyedIndex> keyed(cloud.size());
   std::vector<std::uint64_t> largest(chunkCount(cloud.size(), kChunk));
   const double inverse = 1 / edge;
-  const auto number = [inverse](float value, float from) {
-    return static_cast<std::uint32_t>((static_cast<double>(value) - static_cast<double>(from)) *
-                                      inverse);
+  const auto number = [inverse](float value, double from) {
+    return static_cast<std::uint32_t>(std::max(static_cast<double>(value) - from, 0.0) * inverse);
   };
   forEachChunk(
       arena, cloud.size(), kChunk, [&](std::size_t chunk, std::size_t begin, std::size_t end) {

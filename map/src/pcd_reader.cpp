@@ -11,7 +11,7 @@
 namespace paloc {
 namespace {
 
-constexpr std::uint64_t kMaxHeaderLines = 1000;
+constexpr std::uint64_t kMaxHeaderBytes = 4 << 20;
 constexpr std::uint64_t kMaxFieldValues = 1 << 20;  // of one point; a histogram has hundreds
 
 struct PcdHeader {
@@ -58,8 +58,8 @@ class PcdHeaderReader {
   PcdHeader read() {
     while (header_.data.empty()) {
       std::string_view line;
-      if (!lines_.next(line) || lines_.lineNumber() > kMaxHeaderLines) {
-        file_.fail("its PCD header has no line 'DATA'");
+      if (!lines_.next(line) || lines_.offset() > kMaxHeaderBytes) {
+        file_.fail("its PCD header has no line 'DATA' (in its first 4 MB)");
       }
       const auto w = words(line);
       if (!w.empty() && !w[0].starts_with('#')) readLine(w);
@@ -157,7 +157,8 @@ class PcdHeaderReader {
   file.fail(text("its header promises ", promised, " points, but the file has room for ", fit));
 }
 
-PointCloud readBinary(const InputFile& file, const PcdHeader& header, std::uint64_t at) {
+PointCloud readBinary(const InputFile& file, const PcdHeader& header, std::uint64_t at,
+                      const LoadOptions& options) {
   RecordLayout layout;
   layout.first_byte = at;
   layout.records = *header.points;
@@ -169,12 +170,15 @@ PointCloud readBinary(const InputFile& file, const PcdHeader& header, std::uint6
   }
   const std::uint64_t fit = (file.size() - at) / std::max<std::size_t>(layout.record_bytes, 1);
   if (layout.records > fit) failTooShort(file, layout.records, fit);
-  return readRecords(file, header.fields, layout);
+  if (layout.records < fit) {
+    file.fail(text("its header promises ", layout.records, " points, but the file holds ", fit));
+  }
+  return readRecords(file, header.fields, layout, options);
 }
 
 // The unpacked block holds one field after the other, each for all points.
 PointCloud readUnpacked(const InputFile& file, const PcdHeader& header,
-                        const std::vector<std::byte>& block) {
+                        const std::vector<std::byte>& block, const LoadOptions& options) {
   const CloudFields selection(header.fields, file);
   const auto points = static_cast<std::size_t>(*header.points);
   std::vector<std::size_t> first_byte;
@@ -183,7 +187,7 @@ PointCloud readUnpacked(const InputFile& file, const PcdHeader& header,
     first_byte.push_back(offset);
     offset += sizeOf(header.fields[i].type) * header.counts[i] * points;
   }
-  CloudBuilder builder(file, selection, points);
+  CloudBuilder builder(file, selection, points, options);
   for (std::size_t done = 0; done < points; done += CloudBuilder::kBlockRows) {
     const std::size_t rows = std::min(CloudBuilder::kBlockRows, points - done);
     for (std::size_t role = 0; role < kRoles; ++role) {
@@ -198,7 +202,8 @@ PointCloud readUnpacked(const InputFile& file, const PcdHeader& header,
   return builder.finish();
 }
 
-PointCloud readCompressed(const InputFile& file, const PcdHeader& header, std::uint64_t at) {
+PointCloud readCompressed(const InputFile& file, const PcdHeader& header, std::uint64_t at,
+                          const LoadOptions& options) {
   std::uint32_t sizes[2];  // packed, unpacked; little-endian
   if (file.size() - at < sizeof(sizes)) file.fail("ends before its compressed data");
   file.readAt(at, sizes, sizeof(sizes));
@@ -213,14 +218,17 @@ PointCloud readCompressed(const InputFile& file, const PcdHeader& header, std::u
     file.fail(text("its header promises ", *header.points,
                    " points, which do not fit its compressed data"));
   }
+  MemoryBudget(options.memory_limit_bytes)
+      .require(std::uint64_t{sizes[0]} + sizes[1], text(file.name(), ": its compressed data"));
   std::vector<std::byte> packed(sizes[0]);
   std::vector<std::byte> block(sizes[1]);
   file.readAt(at, packed.data(), packed.size());
   if (!unpackLzf(packed, block)) file.fail("its compressed data is damaged");
-  return readUnpacked(file, header, block);
+  return readUnpacked(file, header, block, options);
 }
 
-PointCloud readAscii(const InputFile& file, const PcdHeader& header, TextLines& lines) {
+PointCloud readAscii(const InputFile& file, const PcdHeader& header, TextLines& lines,
+                     const LoadOptions& options) {
   std::vector<std::size_t> values_before;
   std::size_t values = 0;
   for (const std::size_t count : header.counts) {
@@ -228,7 +236,7 @@ PointCloud readAscii(const InputFile& file, const PcdHeader& header, TextLines& 
     values += count;
   }
   PointCloud cloud =
-      readTextRows(file, header.fields, values_before, values, lines, *header.points);
+      readTextRows(file, header.fields, values_before, values, lines, *header.points, options);
   std::string_view line;
   while (lines.next(line)) {
     if (!words(line).empty()) {
@@ -241,17 +249,17 @@ PointCloud readAscii(const InputFile& file, const PcdHeader& header, TextLines& 
 
 }  // namespace
 
-PointCloud readPcd(const InputFile& file) {
+PointCloud readPcd(const InputFile& file, const LoadOptions& options) {
   TextLines lines(file, 0, 1);
   const PcdHeader header = PcdHeaderReader(file, lines).read();
   if (*header.points == 0) file.fail("has no points");
   PointCloud cloud;
   if (header.data == "ascii") {
-    cloud = readAscii(file, header, lines);
+    cloud = readAscii(file, header, lines, options);
   } else if (header.data == "binary") {
-    cloud = readBinary(file, header, lines.offset());
+    cloud = readBinary(file, header, lines.offset(), options);
   } else if (header.data == "binary_compressed") {
-    cloud = readCompressed(file, header, lines.offset());
+    cloud = readCompressed(file, header, lines.offset(), options);
   } else {
     file.fail(
         text("its PCD data '", header.data, "' is not known (ascii, binary, binary_compressed)"));

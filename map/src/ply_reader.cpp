@@ -11,7 +11,7 @@
 namespace paloc {
 namespace {
 
-constexpr std::uint64_t kMaxHeaderLines = 100'000;
+constexpr std::uint64_t kMaxHeaderBytes = 4 << 20;
 
 struct Property {
   CloudField field;                      ///< of a list: the type of its items
@@ -79,8 +79,8 @@ class PlyHeader {
  private:
   // False at "end_header".
   bool nextLine(std::string_view& line) {
-    if (!lines_.next(line) || lines_.lineNumber() > kMaxHeaderLines) {
-      file_.fail("its PLY header has no 'end_header'");
+    if (!lines_.next(line) || lines_.offset() > kMaxHeaderBytes) {
+      file_.fail("its PLY header has no 'end_header' (in its first 4 MB)");
     }
     return line.substr(0, line.find_last_not_of(" \t") + 1) != "end_header";
   }
@@ -166,7 +166,7 @@ std::uint64_t skipBinary(const InputFile& file, const Element& element, std::uin
 
 PointCloud readBinaryVertices(const InputFile& file, const Element& vertex,
                               const std::vector<CloudField>& fields, std::uint64_t at,
-                              bool big_endian, bool last) {
+                              bool big_endian, bool last, const LoadOptions& options) {
   RecordLayout layout;
   layout.first_byte = at;
   layout.records = vertex.count;
@@ -183,7 +183,7 @@ PointCloud readBinaryVertices(const InputFile& file, const Element& vertex,
   if (last && vertex.count < fit) {
     file.fail(text("its header promises ", vertex.count, " points, but the file holds ", fit));
   }
-  return readRecords(file, fields, layout);
+  return readRecords(file, fields, layout, options);
 }
 
 std::string formatName(const PlyHeader& header) {
@@ -199,10 +199,12 @@ std::string formatName(const PlyHeader& header) {
 }
 
 PointCloud readTextVertices(const InputFile& file, const Element& vertex,
-                            const std::vector<CloudField>& fields, TextLines& lines, bool last) {
+                            const std::vector<CloudField>& fields, TextLines& lines, bool last,
+                            const LoadOptions& options) {
   std::vector<std::size_t> values_before(fields.size());
   for (std::size_t i = 0; i < fields.size(); ++i) values_before[i] = i;
-  PointCloud cloud = readTextRows(file, fields, values_before, fields.size(), lines, vertex.count);
+  PointCloud cloud =
+      readTextRows(file, fields, values_before, fields.size(), lines, vertex.count, options);
   std::string_view line;
   while (last && lines.next(line)) {
     if (!words(line).empty()) {
@@ -215,7 +217,7 @@ PointCloud readTextVertices(const InputFile& file, const Element& vertex,
 
 }  // namespace
 
-PointCloud readPly(const InputFile& file) {
+PointCloud readPly(const InputFile& file, const LoadOptions& options) {
   TextLines lines(file, 0, 1);
   const PlyHeader header(file, lines);
   const bool ascii = header.encoding() == Encoding::kAscii;
@@ -234,8 +236,9 @@ PointCloud readPly(const InputFile& file) {
     std::vector<CloudField> fields;
     for (const auto& p : element.properties) fields.push_back(p.field);
     const bool last = &element == &header.elements().back();
-    PointCloud cloud = ascii ? readTextVertices(file, element, fields, lines, last)
-                             : readBinaryVertices(file, element, fields, at, big_endian, last);
+    PointCloud cloud =
+        ascii ? readTextVertices(file, element, fields, lines, last, options)
+              : readBinaryVertices(file, element, fields, at, big_endian, last, options);
     cloud.format = formatName(header);
     return cloud;
   }

@@ -9,6 +9,7 @@
 
 #include "map_side_file.h"
 #include "map_thinning.h"
+#include "memory_budget.h"
 #include "paloc/core/errors.h"
 #include "paloc/core/text.h"
 #include "paloc/map/cloud_io.h"
@@ -43,6 +44,14 @@ struct PriorMap::Data {
 };
 
 namespace {
+
+// What ordering takes, and then the index and the planes, on top of the points themselves.
+void requireMemory(std::size_t points, const std::string& name) {
+  constexpr std::size_t kSortBytes = 2 * 16 + sizeof(Point3f);
+  constexpr std::size_t kMapBytes = 2 * sizeof(Point3f) + sizeof(PackedPlane);
+  MemoryBudget().require(points * std::max(kSortBytes, kMapBytes),
+                         text(name, ": a prior map of its ", points, " points"));
+}
 
 RawArray<PointBlock> blocksOf(const std::vector<Point3f>& points, tbb::task_arena& arena) {
   RawArray<PointBlock> blocks(chunkCount(points.size(), PointBlock::kPoints));
@@ -86,6 +95,7 @@ std::unique_ptr<PriorMap::Data> PriorMap::prepare(const PointCloud& cloud,
     throw IoError(
         text(name, " holds ", cloud.size(), " points: a prior map needs at least ", kMinPoints));
   }
+  requireMemory(cloud.size(), name);
   tbb::task_arena arena(std::max(settings.threads, 1));
   auto data = std::make_unique<Data>();
   PreparedMap& map = data->map;
@@ -100,7 +110,7 @@ std::unique_ptr<PriorMap::Data> PriorMap::prepare(const PointCloud& cloud,
   map.planes = fitPlanes(data->index, settings, arena);
   data->statistics.planes_s = fitting.seconds();
   map.origin = cloud.origin;
-  map.points_read = cloud.size();
+  map.points_read = std::max(cloud.points_read, cloud.size());
   map.nonfinite = cloud.nonfinite_dropped;
   map.points = points.size();
   map.planar = countPlanar(map.planes);
@@ -119,8 +129,10 @@ std::shared_ptr<const PriorMap> PriorMap::build(const PointCloud& cloud,
 }
 
 std::shared_ptr<const PriorMap> PriorMap::load(const std::filesystem::path& file,
-                                               const MapSettings& settings) {
-  if (!settings.side_file) return build(loadCloud(file), settings, file.string());
+                                               const MapSettings& settings,
+                                               const Progress& progress) {
+  const LoadOptions reading_options{.voxel_m = settings.voxel_m, .progress = progress};
+  if (!settings.side_file) return build(loadCloud(file, reading_options), settings, file.string());
   tbb::task_arena arena(std::max(settings.threads, 1));
   const Stopwatch reading;
   MapSideFile side_file(file, settings, arena);
@@ -137,7 +149,7 @@ std::shared_ptr<const PriorMap> PriorMap::load(const std::filesystem::path& file
     data->statistics.side_file_s = read_s;
   } else {
     const double checked_s = reading.seconds();
-    data = prepare(loadCloud(file), settings, file.string());
+    data = prepare(loadCloud(file, reading_options), settings, file.string());
     const Stopwatch writing;
     Statistics& statistics = data->statistics;
     statistics.side_file_note = side_file.problem();

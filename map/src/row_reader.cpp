@@ -10,54 +10,49 @@ std::string rowsFound(std::uint64_t promised, std::uint64_t found) {
   return text("its header promises ", promised, " points, but the file ends after ", found);
 }
 
-// Reads the values of one line to row `row` of the builder's block.
-class RowParser {
- public:
-  RowParser(const InputFile& file, const std::vector<CloudField>& fields,
-            const CloudFields& selection, const std::vector<std::size_t>& values_before,
-            std::size_t values_per_row)
-      : file_(file),
-        fields_(fields),
-        selection_(selection),
-        role_of_value_(values_per_row, kRoles) {
-    for (std::size_t role = 0; role < kRoles; ++role) {
-      if (!selection_.has(static_cast<Role>(role))) continue;
-      role_of_value_[values_before[selection_.index[role]]] = static_cast<Role>(role);
-    }
+void scaleRows(const RecordLayout& layout, std::size_t rows, CloudBuilder& builder) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double scale = layout.scale[axis], shift = layout.shift[axis];
+    if (scale == 1 && shift == 0) continue;
+    double* values = builder.column(static_cast<Role>(kX + axis));
+    for (std::size_t i = 0; i < rows; ++i) values[i] = shift + scale * values[i];
   }
-
-  void parse(std::string_view line, std::uint64_t line_number, std::size_t row, CloudBuilder& out) {
-    for (const Role role : role_of_value_) {
-      const auto word = nextWord(line);
-      if (word.empty()) fail(line_number, text("has fewer than ", valuesPerRow(), " values"));
-      if (role == kRoles) continue;
-      if (!parseNumber(word, out.column(role)[row])) {
-        fail(line_number, text("'", word.substr(0, 40), "' is not a number (field '",
-                               fields_[selection_.index[role]].name, "')"));
-      }
-    }
-    if (!nextWord(line).empty())
-      fail(line_number, text("has more than ", valuesPerRow(), " values"));
-  }
-
- private:
-  std::string valuesPerRow() const { return std::to_string(role_of_value_.size()); }
-  [[noreturn]] void fail(std::uint64_t line_number, const std::string& sentence) const {
-    file_.fail(text("line ", line_number, ": ", sentence));
-  }
-
-  const InputFile& file_;
-  const std::vector<CloudField>& fields_;
-  const CloudFields& selection_;
-  std::vector<Role> role_of_value_;  // kRoles: a value that nobody asks for
-};
+}
 
 }  // namespace
 
+RowParser::RowParser(const InputFile& file, const std::vector<CloudField>& fields,
+                     const CloudFields& selection, const std::vector<std::size_t>& values_before,
+                     std::size_t values_per_row)
+    : file_(file), fields_(fields), selection_(selection), role_of_value_(values_per_row, kRoles) {
+  for (std::size_t role = 0; role < kRoles; ++role) {
+    if (!selection_.has(static_cast<Role>(role))) continue;
+    role_of_value_[values_before[selection_.index[role]]] = static_cast<Role>(role);
+  }
+}
+
+void RowParser::parse(std::string_view line, std::uint64_t line_number, std::size_t row,
+                      CloudBuilder& out) const {
+  for (const Role role : role_of_value_) {
+    const auto word = nextWord(line);
+    if (word.empty()) fail(line_number, text("has fewer than ", valuesPerRow(), " values"));
+    if (role == kRoles) continue;
+    if (!parseNumber(word, out.column(role)[row])) {
+      fail(line_number, text("'", word.substr(0, 40), "' is not a number (field '",
+                             fields_[selection_.index[role]].name, "')"));
+    }
+  }
+  if (!nextWord(line).empty()) fail(line_number, text("has more than ", valuesPerRow(), " values"));
+}
+
+void RowParser::fail(std::uint64_t line_number, const std::string& sentence) const {
+  file_.fail(text("line ", line_number, ": ", sentence));
+}
+
 PointCloud readRecords(const InputFile& file, const std::vector<CloudField>& fields,
-                       const RecordLayout& layout) {
+                       const RecordLayout& layout, const LoadOptions& options) {
   const CloudFields selection(fields, file);
-  CloudBuilder builder(file, selection, layout.records);
+  CloudBuilder builder(file, selection, layout.records, options);
   constexpr std::size_t kBlocksPerRead = 16;
   std::vector<std::byte> bytes(
       std::min<std::uint64_t>(layout.records, CloudBuilder::kBlockRows * kBlocksPerRead) *
@@ -77,6 +72,7 @@ PointCloud readRecords(const InputFile& file, const std::vector<CloudField>& fie
         readColumn({first_value, layout.record_bytes, fields[field].type, layout.big_endian}, rows,
                    builder.column(static_cast<Role>(role)));
       }
+      scaleRows(layout, rows, builder);
       builder.addBlock(rows);
     }
     done += here;
@@ -86,15 +82,15 @@ PointCloud readRecords(const InputFile& file, const std::vector<CloudField>& fie
 
 PointCloud readTextRows(const InputFile& file, const std::vector<CloudField>& fields,
                         const std::vector<std::size_t>& values_before, std::size_t values_per_row,
-                        TextLines& lines, std::uint64_t rows) {
+                        TextLines& lines, std::uint64_t rows, const LoadOptions& options) {
   // Two bytes a value (a digit and a blank or line end) are the least, the last end may be missing.
   const std::uint64_t left = file.size() - lines.offset();
   if (rows > (left + 1) / 2 / std::max<std::size_t>(values_per_row, 1)) {
     file.fail(text("its header promises ", rows, " points, but only ", left, " bytes follow"));
   }
   const CloudFields selection(fields, file);
-  CloudBuilder builder(file, selection, rows);
-  RowParser parser(file, fields, selection, values_before, values_per_row);
+  CloudBuilder builder(file, selection, rows, options);
+  const RowParser parser(file, fields, selection, values_before, values_per_row);
   std::size_t in_block = 0;
   for (std::uint64_t row = 0; row < rows; ++row) {
     std::string_view line;

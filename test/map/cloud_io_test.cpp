@@ -2,42 +2,17 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstring>
 #include <random>
 
-#include "paloc/core/errors.h"
-#include "temp_dir.h"
+#include "cloud_files.h"
 
 namespace paloc {
 namespace {
 
-template <typename T>
-void put(std::string& bytes, T value, bool big_endian = false) {
-  char raw[sizeof(T)];
-  std::memcpy(raw, &value, sizeof(T));
-  if (big_endian) std::reverse(raw, raw + sizeof(T));
-  bytes.append(raw, sizeof(T));
-}
-
-// What loadCloud says of a file that it refuses; empty if it does not refuse.
-std::string refusal(const std::filesystem::path& file) {
-  try {
-    loadCloud(file);
-  } catch (const IoError& e) {
-    return e.what();
-  }
-  return {};
-}
-
-void expectRefused(const test::TempDir& folder, const std::string& name, std::string_view bytes,
-                   const std::string& expected) {
-  const auto file = folder.write(name, bytes);
-  const std::string sentence = refusal(file);
-  EXPECT_TRUE(sentence.starts_with(file.string())) << name << ": " << sentence;
-  EXPECT_NE(sentence.find(expected), std::string::npos) << name << ": " << sentence;
-  EXPECT_EQ(sentence.find('\n'), std::string::npos) << sentence;
-}
+using test::expectRefused;
+using test::put;
+using test::refusal;
 
 std::string plyHeader(const std::string& format, int count, const std::string& properties) {
   return "ply\nformat " + format + " 1.0\ncomment made for a test\nelement vertex " +
@@ -152,6 +127,9 @@ TEST(Ply, RefusesWhatIsBroken) {
   expectRefused(folder, "l.ply", "ply\nelement vertex 99999999999999999999\n" + end, "line 2");
   expectRefused(folder, "m.ply", plyHeader(le, 1, "property list uchar float x\n") + end, "list");
   expectRefused(folder, "n.ply", "ply\ncomment " + std::string(3'000'000, 'x'), "line 2 is longer");
+  std::string endless = "ply\nformat ascii 1.0\n";
+  for (int i = 0; i < 100'000; ++i) endless += "comment of " + std::string(40, 'x') + "\n";
+  expectRefused(folder, "endless.ply", endless, "no 'end_header'");
   expectRefused(folder, "o.ply", "ply\nformat ascii 1.0\n" + end, "no element 'vertex'");
   const std::string ascii = plyHeader("ascii", 2, kXyz) + end;
   expectRefused(folder, "p.ply", ascii + "1 2 3\n", "promises 2 points");
@@ -161,7 +139,7 @@ TEST(Ply, RefusesWhatIsBroken) {
                 "line 10: 'abc' is not a number (field 'y')");
   expectRefused(folder, "t.ply", ascii + "1 2 3\n4 5 6\n7 8 9\n", "more lines follow");
   expectRefused(folder, "u.ply", plyHeader("ascii", 1, kXyz) + end + "nan 1 2\n", "none of its 1");
-  expectRefused(folder, "v.txt", "hello", "no point cloud");
+  expectRefused(folder, "v.foo", "hello", "no point cloud");
   EXPECT_NE(refusal(folder / "missing.ply").find("No such file"), std::string::npos);
   EXPECT_NE(refusal(folder.path()).find("is a folder, not a point cloud"), std::string::npos);
 }
@@ -251,6 +229,7 @@ TEST(Pcd, ReadsBinary) {
   const std::string bytes = pcdFile(1000, "binary") + pcdData(1000, false);
   expectPcdData(loadCloud(folder.write("a.pcd", bytes)), 1000);
   expectRefused(folder, "short.pcd", bytes.substr(0, bytes.size() - 1), "room for 999");
+  expectRefused(folder, "long.pcd", bytes + std::string(31, '\0'), "the file holds 1001");
 }
 
 // A plain LZF packer: the longest earlier match within reach, or literals. Slow and enough here.

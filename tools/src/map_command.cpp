@@ -12,7 +12,10 @@ namespace {
 /// its own and a line in the constructor.
 class MapCommand : public Command {
  public:
-  MapCommand() { commands_.push_back(makeMapInfoCommand()); }
+  MapCommand() {
+    commands_.push_back(makeMapInfoCommand());
+    commands_.push_back(makeMapConvertCommand());
+  }
 
   void registerOn(CLI::App& app) override {
     CLI::App* map = app.add_subcommand("map", "Look at a prior map, and work with it");

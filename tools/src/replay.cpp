@@ -40,7 +40,7 @@ class Replay {
   ReplayOutcome run(const ReplayObserver& observer);
 
  private:
-  void loadMap();
+  void loadMap(const ReplayObserver& observer);
   void makeEstimator();
   std::optional<EventBatch> nextBatch() {
     return read_ahead_ ? read_ahead_->next() : source_.next();
@@ -65,9 +65,13 @@ class Replay {
   ReplayOutcome outcome_;
 };
 
-void Replay::loadMap() {
+void Replay::loadMap(const ReplayObserver& observer) {
   StageScope stage(&stopwatch_, "load_map");
-  map_ = PriorMap::load(options_.map_file, config_.map);
+  map_ = PriorMap::load(options_.map_file, config_.map, [&observer](double share) {
+    ReplayProgress progress;
+    progress.map_share = share;
+    if (observer) observer(progress);
+  });
   outcome_.prior_map_points = map_->size();
   outcome_.prior_map_planar = map_->statistics().planar;
   outcome_.unused.add("point", options_.map_file.filename().string(), "not finite",
@@ -140,7 +144,7 @@ void Replay::finish() {
 }
 
 ReplayOutcome Replay::run(const ReplayObserver& observer) {
-  loadMap();
+  loadMap(observer);
   makeEstimator();
   reading_since_ = std::chrono::steady_clock::now();
   while (const std::optional<EventBatch> batch = nextBatch()) {

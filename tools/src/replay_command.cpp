@@ -46,6 +46,10 @@ std::string matchText(const MapMatch& match) {
 
 std::string progressText(const ReplayProgress& p) {
   char buffer[100];
+  if (p.map_share) {
+    std::snprintf(buffer, sizeof buffer, "reading the map: %3.0f %%", 100 * *p.map_share);
+    return buffer;
+  }
   std::snprintf(buffer, sizeof buffer, "%3.0f %%", 100 * p.share);
   std::string text = buffer;
   if (p.speed_x_realtime > 0) {
@@ -68,7 +72,10 @@ class ReplayCommand : public Command {
   void registerOn(CLI::App& app) override {
     replay_ = app.add_subcommand("replay", "Make a trajectory of a recording and a prior map");
     replay_->add_option("LOG", options_.log_file, "recording (MRPT rawlog)")->required();
-    replay_->add_option("--map", options_.map_file, "prior map (PLY, PCD)")->required();
+    replay_
+        ->add_option("--map", options_.map_file,
+                     "prior map (PLY, PCD, LAS, XYZ text, OctoMap; gzipped or not)")
+        ->required();
     replay_->add_option("--frontend", options_.frontend, "odometry front-end")
         ->capture_default_str();
     auto* pose = replay_->add_option("--init-pose", init_pose_,

@@ -34,7 +34,7 @@ class SynthCommand : public Command {
 
   CLI::App* command_ = nullptr;
   synth::SynthSettings settings_;
-  std::string trajectory_, folder_, extrinsic_;
+  std::string map_, trajectory_, folder_, extrinsic_;
   double range_noise_m_ = -1;
   bool json_ = false;
 };
@@ -43,6 +43,12 @@ void SynthCommand::registerOn(CLI::App& app) {
   command_ = app.add_subcommand("synth", "Simulate a recording, its prior map and its truth");
   command_->add_option("--scene", settings_.scene, "where: " + joined(synth::sceneNames()))
       ->capture_default_str();
+  command_
+      ->add_option(
+          "--map", map_,
+          "where instead: an OctoMap file (.bt, .ot), which is then the prior map; without "
+          "--trajectory, a way is sought in its free space")
+      ->excludes("--scene");
   command_->add_option("--sensor", settings_.sensor, "LiDAR: " + joined(synth::sensorNames()))
       ->capture_default_str();
   command_->add_option(
@@ -91,6 +97,7 @@ void SynthCommand::addModelOptions() {
 }
 
 ExitCode SynthCommand::run() {
+  settings_.map_file = map_;
   settings_.trajectory = trajectory_;
   settings_.folder = folder_;
   if (range_noise_m_ >= 0) settings_.range_noise_m = range_noise_m_;
@@ -138,9 +145,9 @@ void SynthCommand::printSummary(const synth::SynthSummary& summary, double time_
       "%.1f m\n",
       summary.scans, static_cast<double>(summary.points) * 1e-6, summary.imu_samples,
       summary.odometry_poses, summary.duration_s, summary.length_m);
-  std::printf("the odometry ends %.2f m off; the map has %zu points\n",
-              summary.odometry_end_error_m, summary.map_points);
-  std::printf("written to %s in %.1f s\n", settings_.folder.string().c_str(), time_s);
+  std::printf("the odometry ends %.2f m off", summary.odometry_end_error_m);
+  if (summary.map_points > 0) std::printf("; the map has %zu points", summary.map_points);
+  std::printf("\nwritten to %s in %.1f s\n", settings_.folder.string().c_str(), time_s);
 }
 
 }  // namespace

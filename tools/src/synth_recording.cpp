@@ -15,6 +15,7 @@
 #include "paloc/map/cloud_io.h"
 #include "paloc/tools/motion_observations.h"
 #include "paloc/tools/result_folder.h"
+#include "paloc/tools/synth_map_scene.h"
 #include "paloc/tools/synth_scene.h"
 #include "paloc/tools/synth_sensor.h"
 #include "paloc/tools/synth_timeline.h"
@@ -23,8 +24,6 @@
 namespace paloc::synth {
 namespace {
 
-constexpr const char* kFiles[] = {"recording.rawlog", "truth.tum", "truth_imu.csv", "map.ply",
-                                  "synth.json"};
 constexpr double kSurveyShare = 0.2;  // of the time, roughly
 
 /// Writes the observations in the order of their stamps: scans as they come, and before each the
@@ -93,6 +92,11 @@ void writeScans(const Timeline& timeline, const LidarSimulator& lidar, OrderedRe
       }));
 }
 
+Scene sceneOf(const SynthSettings& settings) {
+  if (settings.map_file.empty()) return makeScene(settings.scene);
+  return makeMapScene(settings.map_file, settings.trajectory.empty());
+}
+
 double endError(const Timeline& timeline) {
   const Pose T_map_odom = timeline.truth.front().pose * timeline.odometry.front().pose.inverse();
   return (T_map_odom * timeline.odometry.back().pose.position - timeline.truth.back().pose.position)
@@ -122,7 +126,7 @@ SynthSummary writeRecording(const SynthSettings& settings, const SynthProgress& 
   const int threads = settings.threads > 0 ? settings.threads : tbb::info::default_concurrency();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
-  const Scene scene = makeScene(settings.scene);
+  const Scene scene = sceneOf(settings);
   SensorModel sensor = makeSensor(settings.sensor);
   if (settings.range_noise_m) sensor.range_noise_m = *settings.range_noise_m;
   const Timeline timeline = makeTimeline(settings, scene.route, sensor);
@@ -143,14 +147,19 @@ SynthSummary writeRecording(const SynthSettings& settings, const SynthProgress& 
                             std::to_string(summary.scans) +
                             " scans hit nothing: the path leaves the scene");
   }
-  progress(1 - kSurveyShare, "map.ply");
-  const PointCloud map =
-      survey(settings.survey, scene.mesh, raycaster, scene.survey_stations, settings.seed);
-  summary.map_points = map.size();
-  savePly(folder.file("map.ply"), map, "paloc synth, scene " + settings.scene);
-  writeDescription(folder.file("synth.json"), settings, scene.description, sensor, summary);
+  summary.files = {folder.file("recording.rawlog"), folder.file("truth.tum"),
+                   folder.file("truth_imu.csv")};
+  if (!scene.survey_stations.empty()) {
+    progress(1 - kSurveyShare, "map.ply");
+    const PointCloud map =
+        survey(settings.survey, scene.mesh, raycaster, scene.survey_stations, settings.seed);
+    summary.map_points = map.size();
+    savePly(folder.file("map.ply"), map, "paloc synth, scene " + settings.scene);
+    summary.files.push_back(folder.file("map.ply"));
+  }
+  writeDescription(folder.file("synth.json"), settings, scene, sensor, summary);
   progress(1, "synth.json");
-  for (const char* name : kFiles) summary.files.push_back(folder.file(name));
+  summary.files.push_back(folder.file("synth.json"));
   return summary;
 }
 

@@ -12,7 +12,6 @@ namespace {
 constexpr double kTwoPi = 2 * std::numbers::pi;
 constexpr double kControlInterval = 0.05;  // s: a ninth of a step's period
 constexpr double kRestStart = 2.5, kRestEnd = 2.0, kPause = 3.0, kRamp = 1.2;  // s
-constexpr double kCarryHeight = 1.35;                                          // m
 
 /// From 0 to 1 with no jump in velocity and acceleration.
 double smoothStep(double x) {
@@ -114,7 +113,7 @@ Motion makeWalk(const std::vector<Vec3>& corners, double duration_s, TimeNs star
     const Vec3 gait =
         active * (0.015 * std::sin(step_phase / 2) * left +
                   (0.02 * std::sin(step_phase) + 0.03 * wave(0.17, t, 7)) * Vec3::UnitZ());
-    poses.push_back({route.at(way) + gait + kCarryHeight * Vec3::UnitZ(),
+    poses.push_back({route.at(way) + gait + kCarryHeight_m * Vec3::UnitZ(),
                      so3::exp(Vec3(0, 0, yaw + look + step_yaw)) *
                          so3::exp(Vec3(0, pitch + 0.03, 0)) * so3::exp(Vec3(roll - 0.02, 0, 0))});
   }

@@ -39,12 +39,11 @@ void writeImuTruth(const std::filesystem::path& file, const std::vector<ImuTruth
 }
 
 void writeDescription(const std::filesystem::path& file, const SynthSettings& settings,
-                      const std::string& scene, const SensorModel& sensor,
-                      const SynthSummary& summary) {
+                      const Scene& scene, const SensorModel& sensor, const SynthSummary& summary) {
   const ImuModel& imu = settings.imu;
   const SurveyModel& survey = settings.survey;
   Json json;
-  json["scene"] = {{"name", settings.scene}, {"description", scene}};
+  json["scene"] = {{"name", scene.name}, {"description", scene.description}};
   json["seed"] = settings.seed;
   json["motion"] = {
       {"trajectory",
@@ -92,14 +91,16 @@ void writeDescription(const std::filesystem::path& file, const SynthSettings& se
                       {"step_noise_m", settings.odometry.step_noise_m},
                       {"step_noise_rad", settings.odometry.step_noise_rad},
                       {"end_error_m", summary.odometry_end_error_m}};
-  json["map"] = {{"points", summary.map_points},
-                 {"spacing_m", survey.spacing_m},
-                 {"range_noise_m", survey.range_noise_m},
-                 {"surface_bias_sigma_m", survey.surface_bias_m},
-                 {"angular_step_deg", survey.angular_step_deg}};
+  if (summary.map_points > 0) {
+    json["map"] = {{"points", summary.map_points},
+                   {"spacing_m", survey.spacing_m},
+                   {"range_noise_m", survey.range_noise_m},
+                   {"surface_bias_sigma_m", survey.surface_bias_m},
+                   {"angular_step_deg", survey.angular_step_deg}};
+  }
   json["files"] = {
       {"recording.rawlog", "the recording (rawlog-edit -p libpaloc_frontends.so reads it)"},
-      {"map.ply", "the prior map: a survey of the scene"},
+      {summary.map_points > 0 ? "map.ply" : scene.name, "the prior map"},
       {"truth.tum", "T_map_body at the end of each scan"},
       {"truth_imu.csv", "pose and velocity in the map, and IMU biases, at each IMU stamp"}};
   json["notes"] = summary.notes;

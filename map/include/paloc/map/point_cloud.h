@@ -21,6 +21,7 @@ struct PointCloud {
   std::vector<double> time;
   std::string time_field;  ///< the name of that field ("t", "timestamp"); empty if there is none
   bool time_is_integer = false;       ///< whether the file stores it as an integer
+  std::size_t points_read = 0;        ///< finite points of the file, before any thinning
   std::size_t nonfinite_dropped = 0;  ///< points that were not finite and were left out
 
   std::size_t size() const { return points.size(); }

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -48,12 +49,17 @@ class PALOC_EXPORT PriorMap {
     double side_file_s = 0;      ///< time of checking, reading and writing it
   };
 
-  /// Reads a cloud (see loadCloud) and builds the map; or reads what was prepared from the same
-  /// file content with the same settings before, from the side file `FILE.paloc`. One that does not
-  /// fit or is damaged is replaced; that none can be written is no error (see Statistics). Throws
-  /// IoError in one sentence.
+  /// Called now and then while the file is read, with what is done of that, 0..1.
+  using Progress = std::function<void(double share)>;
+
+  /// Reads a cloud (see loadCloud), thinning it on the way, and builds the map; or reads what was
+  /// prepared from the same file content with the same settings before, from the side file
+  /// `FILE.paloc`. One that does not fit or is damaged is replaced; that none can be written is no
+  /// error (see Statistics). Throws IoError in one sentence, also when the machine has not the
+  /// memory for it.
   static std::shared_ptr<const PriorMap> load(const std::filesystem::path& file,
-                                              const MapSettings& settings);
+                                              const MapSettings& settings,
+                                              const Progress& progress = {});
 
   /// Builds the map from a cloud; `name` is what errors call it. Throws IoError when the cloud
   /// holds fewer than 100 points, fewer than 20 points with a plane, or spans more than 2^21

@@ -7,6 +7,7 @@
 namespace paloc {
 
 // One maker a sub-command of `paloc map`; the class itself stays in its source file.
+std::unique_ptr<Command> makeMapConvertCommand();
 std::unique_ptr<Command> makeMapInfoCommand();
 
 }  // namespace paloc

@@ -33,8 +33,9 @@ struct ReplayOptions {
 
 /// How far a replay is, for the progress line.
 struct ReplayProgress {
-  double share = 0;             ///< of the recording's bytes, 0..1
-  double speed_x_realtime = 0;  ///< so far; 0 while it is too early to tell
+  std::optional<double> map_share;  ///< set while the map is loaded: read of its file, 0..1
+  double share = 0;                 ///< of the recording's bytes, 0..1
+  double speed_x_realtime = 0;      ///< so far; 0 while it is too early to tell
   std::uint64_t frames = 0;
   std::optional<double> left_s;  ///< that it may still take, as far as can be told
   const FrameDiagnostics* last_frame = nullptr;

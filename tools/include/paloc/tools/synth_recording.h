@@ -20,6 +20,7 @@ Pose defaultExtrinsic();
 /// What is to be simulated.
 struct SynthSettings {
   std::string scene = "building";
+  std::filesystem::path map_file;  ///< an OctoMap to cast rays into, instead of a scene
   std::string sensor = "os1-128";
   std::filesystem::path trajectory;      ///< TUM; empty: a walk along the scene's route
   double trajectory_smoothing_s = 0.15;  ///< see motionFromFile
@@ -54,7 +55,8 @@ struct SynthSummary {
 /// Called from time to time with the share of the work done, 0..1, and the file being written.
 using SynthProgress = std::function<void(double share, const std::string& file)>;
 
-/// Simulates and writes recording.rawlog, truth.tum, truth_imu.csv, map.ply and synth.json. Same
+/// Simulates and writes recording.rawlog, truth.tum, truth_imu.csv, map.ply (of a scene: a map file
+/// is its own) and synth.json. Same
 /// settings, same bytes. Throws UsageError for unknown names and where files would be overwritten,
 /// IoError for what cannot be read or written.
 SynthSummary writeRecording(const SynthSettings& settings, const SynthProgress& progress);

@@ -9,6 +9,8 @@
 
 namespace paloc::synth {
 
+constexpr double kCarryHeight_m = 1.35;  ///< of the body above the route
+
 /// A walk with the sensor carried in front of the chest: round and round the scene's route, at 0.8
 /// to 1.3 m/s, heading along the way with looks to the sides, bobbing and swaying at the gait's
 /// pace. It begins and ends standing perfectly still (2.5 s, 2 s) and stands still (3 s) once a

@@ -14,7 +14,6 @@ void writeImuTruth(const std::filesystem::path& file, const std::vector<ImuTruth
 /// Writes everything that tells what the recording is: settings, frames, files. Holds nothing that
 /// differs from run to run.
 void writeDescription(const std::filesystem::path& file, const SynthSettings& settings,
-                      const std::string& scene, const SensorModel& sensor,
-                      const SynthSummary& summary);
+                      const Scene& scene, const SensorModel& sensor, const SynthSummary& summary);
 
 }  // namespace paloc::synth
