@@ -7,9 +7,11 @@
 /// through it, so the surface is taken to run through the middle of those occupied cells that
 /// border free space: half a cell behind the face that is seen. A point on the face itself would
 /// shift every surface by half a cell towards the viewer (2.5 cm at 5 cm, 10 cm at 20 cm), and
-/// floors, which have no opposite, with it; in the middle, what is left is the place of the surface
-/// within the cell: no bias, and a twelfth of the edge squared as variance. Where a wall is one
-/// cell thick, its two sides become one sheet. A large leaf gives a point for each of its cells
+/// floors, which have no opposite, with it; in the middle, what is left is mostly the place of the
+/// surface within the cell, with a twelfth of the edge squared as variance. A small bias towards
+/// the viewer remains, since noise and oblique rays mark cells before the surface (simulated rooms,
+/// range noise of 3 to 30 mm: up to 2 mm at 5 cm, 1 to 54 mm at 20 cm). Where a wall is one cell
+/// thick, its two sides become one sheet. A large leaf gives a point for each of its cells
 /// along its border, so that a plane has as many points there as elsewhere; what borders on nothing
 /// known was never seen, and gives none.
 namespace paloc {

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -6,6 +7,7 @@
 #include "paloc/tools/config_options.h"
 #include "paloc/tools/map_commands.h"
 #include "paloc/tools/map_info.h"
+#include "paloc/tools/progress_line.h"
 
 namespace paloc {
 namespace {
@@ -29,7 +31,14 @@ class MapInfoCommand : public Command {
   bool called() const override { return info_->parsed(); }
 
   ExitCode run() override {
-    const MapInfo info = readMapInfo(file_, options_.load().map);
+    ProgressLine line;
+    const MapInfo info =
+        readMapInfo(file_, options_.load().map, [&line](double share, const std::string& what) {
+          char percent[20];
+          std::snprintf(percent, sizeof percent, "%3.0f %%  ", 100 * share);
+          line.show(percent + what);
+        });
+    line.finish();
     std::cout << (json_ ? jsonOf(info).dump(2) + '\n' : tableOf(info)) << std::flush;
     if (!std::cout) throw IoError("the result could not be written to standard output");
     return ExitCode::kGood;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
@@ -23,14 +24,17 @@ struct MapInfo {
   bool intensity = false;
   std::size_t map_points = 0;  ///< left after thinning to map.voxel_m
   double planar_share = 0;     ///< of these, lying on a plane
-  double load_s = 0;           ///< reading the file
-  double build_s = 0;          ///< thinning, search tree, planes of a sample
+  double load_s = 0;           ///< reading, thinning, search tree, planes of a sample
   double memory_mb = 0;        ///< of the map, ready to be matched against
-  double peak_rss_mb = 0;      ///< of this process
+  double peak_rss_mb = 0;      ///< of the process while it was loaded
 };
 
-/// Reads a map and builds the prior map from it. Throws IoError as these do.
-MapInfo readMapInfo(const std::filesystem::path& file, const MapSettings& settings);
+/// Called now and then with the share of the file that is read, 0..1, and what for.
+using MapInfoProgress = std::function<void(double share, const std::string& what)>;
+
+/// Loads a prior map, and then reads the whole file. Throws IoError as these do.
+MapInfo readMapInfo(const std::filesystem::path& file, const MapSettings& settings,
+                    const MapInfoProgress& progress = {});
 
 std::string tableOf(const MapInfo& info);
 nlohmann::ordered_json jsonOf(const MapInfo& info);
