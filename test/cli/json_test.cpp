@@ -81,6 +81,8 @@ std::map<std::string, Words> soundCalls(const test::TempDir& dir) {
       {"import kitti", {"import", "kitti", dir / "drive", "-o", dir / "kitti.rawlog"}},
       {"eval traj", {"eval", "traj", truth, truth}},
       {"config describe", {"config", "describe"}},
+      {"map info", {"map", "info", dir / "demo/map.ply"}},
+      {"map convert", {"map", "convert", dir / "demo/map.ply", dir / "map.pcd"}},
       {"bench smoother", {"bench", "smoother", "--problem", dir / "resting.problem"}},
       {"bench registration",
        {"bench", "registration", "--map-points", "20000", "--places", "2", "--threads", "1"}},

@@ -32,8 +32,10 @@ class MapInfoCommand : public Command {
 
   ExitCode run() override {
     ProgressLine line;
+    MapSettings settings = options_.load().map;
+    settings.side_file = false;  // looking at a map leaves nothing behind
     const MapInfo info =
-        readMapInfo(file_, options_.load().map, [&line](double share, const std::string& what) {
+        readMapInfo(file_, settings, [&line](double share, const std::string& what) {
           char percent[20];
           std::snprintf(percent, sizeof percent, "%3.0f %%  ", 100 * share);
           line.show(percent + what);
