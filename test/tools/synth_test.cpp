@@ -160,8 +160,9 @@ TEST(SynthLidar, PointsLieOnTheSceneAtTheirOwnTimes) {
   SensorModel sensor = makeSensor("os1-128");
   sensor.range_noise_m = 0;
   const Raycaster raycaster(building().mesh);
+  const Surroundings surroundings(raycaster);
   const Pose T_body_lidar = defaultExtrinsic();
-  const LidarSimulator lidar(sensor, T_body_lidar, building().mesh, raycaster, walk(), 1);
+  const LidarSimulator lidar(sensor, T_body_lidar, building().mesh, surroundings, walk(), 1);
   const TimeNs stamp = kStart + 7 * kNsPerSecond;
   ASSERT_GT(walk().at(stamp).v_map.norm(), 0.5);
   const auto scan = lidar.scan(0, stamp);
@@ -184,11 +185,12 @@ TEST(SynthLidar, RangeNoiseIsTheSensors) {
   SensorModel sensor = makeSensor("xt-32"), exact = sensor;
   exact.range_noise_m = 0;
   const Raycaster raycaster(building().mesh);
+  const Surroundings surroundings(raycaster);
   const Motion still({walk().at(kStart).T_map_body}, 0.05, kStart);
   const auto noisy =
-      LidarSimulator(sensor, Pose{}, building().mesh, raycaster, still, 1).scan(0, kStart);
+      LidarSimulator(sensor, Pose{}, building().mesh, surroundings, still, 1).scan(0, kStart);
   const auto clean =
-      LidarSimulator(exact, Pose{}, building().mesh, raycaster, still, 1).scan(0, kStart);
+      LidarSimulator(exact, Pose{}, building().mesh, surroundings, still, 1).scan(0, kStart);
   ASSERT_EQ(noisy->size(), clean->size());
   double sum_sq = 0;
   for (std::size_t i = 0; i < noisy->size(); ++i) {

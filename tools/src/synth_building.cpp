@@ -229,6 +229,7 @@ Scene makeBuilding() {
   scene.description =
       "a floor of an office building, 25 x 15 x 3 m: seven furnished rooms on a corridor";
   scene.mesh = b.take();
+  scene.changeables = buildingChangeables();
   for (const Point2& p : kRoute) scene.route.emplace_back(p.x, p.y, 0);
   for (const Point2& p : kStations) scene.survey_stations.emplace_back(p.x, p.y, 1.6);
   return scene;

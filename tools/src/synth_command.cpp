@@ -35,6 +35,7 @@ class SynthCommand : public Command {
   CLI::App* command_ = nullptr;
   synth::SynthSettings settings_;
   std::string map_, trajectory_, folder_, extrinsic_;
+  std::vector<std::string> changes_;
   double range_noise_m_ = -1;
   bool json_ = false;
 };
@@ -72,7 +73,8 @@ void SynthCommand::registerOn(CLI::App& app) {
       "each\n"
       "scan), truth_imu.csv (with velocity and biases, at IMU rate) and synth.json (all parameters "
       "and\n"
-      "frames).\n\nExample: paloc synth --scene building --sensor os1-128 --duration 60 -o demo");
+      "frames); with --change also changes.json, which tells where.\n\nExample: paloc synth "
+      "--scene building --sensor os1-128 --duration 60 -o demo");
 }
 
 void SynthCommand::addModelOptions() {
@@ -91,6 +93,10 @@ void SynthCommand::addModelOptions() {
   command_->add_option("--map-spacing", settings_.survey.spacing_m, "edge of the map's voxels (m)")
       ->check(CLI::Range(0.005, 1.0))
       ->capture_default_str();
+  command_->add_option("--change", changes_,
+                       "what differs from the surveyed place (several may be given; moved-wall=0.3 "
+                       "tells metres, walking-people=4 how many): " +
+                           joined(synth::changeNames()));
   command_->add_option(
       "--T-body-lidar", extrinsic_,
       "x,y,z,yaw,pitch,roll (m, degrees) of the LiDAR in the body: p_body = T p_lidar");
@@ -103,6 +109,9 @@ ExitCode SynthCommand::run() {
   if (range_noise_m_ >= 0) settings_.range_noise_m = range_noise_m_;
   if (!extrinsic_.empty()) {
     settings_.T_body_lidar = fromMrpt(parsePose(extrinsic_, "--T-body-lidar"));
+  }
+  for (const std::string& change : changes_) {
+    settings_.changes.push_back(synth::parseChange(change));
   }
   ProgressLine line;
   std::string last_file;

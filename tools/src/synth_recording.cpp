@@ -5,6 +5,7 @@
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "paloc/core/errors.h"
@@ -15,6 +16,7 @@
 #include "paloc/map/cloud_io.h"
 #include "paloc/tools/motion_observations.h"
 #include "paloc/tools/result_folder.h"
+#include "paloc/tools/synth_changed_scene.h"
 #include "paloc/tools/synth_map_scene.h"
 #include "paloc/tools/synth_scene.h"
 #include "paloc/tools/synth_sensor.h"
@@ -132,13 +134,16 @@ SynthSummary writeRecording(const SynthSettings& settings, const SynthProgress& 
   const Timeline timeline = makeTimeline(settings, scene.route, sensor);
   const ResultFolder folder(settings.folder, settings.overwrite);
   const Raycaster raycaster(scene.mesh);
+  const ChangedScene changed = changeScene(scene, settings.changes, timeline.motion, raycaster);
+  const Raycaster changed_raycaster(changed.mesh);
+  const Surroundings surroundings = changed.surroundings(changed_raycaster);
 
   SynthSummary summary;
   addCounts(timeline, sensor, summary);
   writeTum(folder.file("truth.tum"), timeline.truth);
   writeImuTruth(folder.file("truth_imu.csv"), timeline.imu);
-  const LidarSimulator lidar(sensor, settings.T_body_lidar, scene.mesh, raycaster, timeline.motion,
-                             settings.seed);
+  const LidarSimulator lidar(sensor, settings.T_body_lidar, changed.mesh, surroundings,
+                             timeline.motion, settings.seed);
   OrderedRecording recording(folder.file("recording.rawlog"), timeline, settings.gzip);
   writeScans(timeline, lidar, recording, summary, progress);
   recording.close();
@@ -151,13 +156,18 @@ SynthSummary writeRecording(const SynthSettings& settings, const SynthProgress& 
                    folder.file("truth_imu.csv")};
   if (!scene.survey_stations.empty()) {
     progress(1 - kSurveyShare, "map.ply");
-    const PointCloud map =
+    PointCloud map =
         survey(settings.survey, scene.mesh, raycaster, scene.survey_stations, settings.seed);
+    changed.cut(map);
     summary.map_points = map.size();
     savePly(folder.file("map.ply"), map, "paloc synth, scene " + settings.scene);
     summary.files.push_back(folder.file("map.ply"));
   }
   writeDescription(folder.file("synth.json"), settings, scene, sensor, summary);
+  if (!settings.changes.empty()) {
+    writeTextFile(folder.file("changes.json"), describeChanges(changed).dump(1) + '\n');
+    summary.files.push_back(folder.file("changes.json"));
+  }
   progress(1, "synth.json");
   summary.files.push_back(folder.file("synth.json"));
   return summary;

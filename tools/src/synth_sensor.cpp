@@ -83,12 +83,12 @@ SensorModel makeSensor(const std::string& name) {
 }
 
 LidarSimulator::LidarSimulator(const SensorModel& sensor, const Pose& T_body_lidar,
-                               const SceneMesh& mesh, const Raycaster& raycaster,
+                               const SceneMesh& mesh, const Surroundings& surroundings,
                                const Motion& motion, std::uint64_t seed)
     : sensor_(sensor),
       T_body_lidar_(T_body_lidar),
       mesh_(mesh),
-      raycaster_(raycaster),
+      surroundings_(surroundings),
       motion_(motion),
       seed_(seed) {}
 
@@ -115,7 +115,7 @@ obs::CObservationLidarScan::Ptr LidarSimulator::scan(std::uint64_t index, TimeNs
                                  std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
       directions_map[i] = (T_map_lidar.rotation * directions_lidar[i]).cast<float>();
     }
-    raycaster_.cast(T_map_lidar.position, directions_map, hits);
+    surroundings_.cast(stamp_ns + delay, T_map_lidar.position, directions_map, random, hits);
     for (std::size_t i = 0; i < beams; ++i) {
       if (!hits[i].valid()) continue;
       const double cos_incidence = std::abs(hits[i].normal_scene.dot(directions_map[i]));

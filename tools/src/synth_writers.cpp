@@ -98,11 +98,17 @@ void writeDescription(const std::filesystem::path& file, const SynthSettings& se
                    {"surface_bias_sigma_m", survey.surface_bias_m},
                    {"angular_step_deg", survey.angular_step_deg}};
   }
+  for (const Change& change : settings.changes) {
+    json["changes"].push_back({{"change", toString(change.kind)}, {"values", change.values}});
+  }
   json["files"] = {
       {"recording.rawlog", "the recording (rawlog-edit -p libpaloc_frontends.so reads it)"},
       {summary.map_points > 0 ? "map.ply" : scene.name, "the prior map"},
       {"truth.tum", "T_map_body at the end of each scan"},
       {"truth_imu.csv", "pose and velocity in the map, and IMU biases, at each IMU stamp"}};
+  if (!settings.changes.empty()) {
+    json["files"]["changes.json"] = "how the recorded place differs from the surveyed one";
+  }
   json["notes"] = summary.notes;
   writeTextFile(file, json.dump(2) + '\n');
 }

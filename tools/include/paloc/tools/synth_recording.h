@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "paloc/tools/synth_change.h"
 #include "paloc/tools/synth_imu.h"
 #include "paloc/tools/synth_odometry.h"
 #include "paloc/tools/synth_survey.h"
@@ -31,6 +32,7 @@ struct SynthSettings {
   ImuModel imu;
   OdometryModel odometry;
   SurveyModel survey;
+  std::vector<Change> changes;   ///< between the survey and the recording, in this order
   std::filesystem::path folder;  ///< made if it does not exist
   bool gzip = false;
   bool overwrite = false;
@@ -56,7 +58,7 @@ struct SynthSummary {
 using SynthProgress = std::function<void(double share, const std::string& file)>;
 
 /// Simulates and writes recording.rawlog, truth.tum, truth_imu.csv, map.ply (of a scene: a map file
-/// is its own) and synth.json. Same
+/// is its own) and synth.json, and where something was changed after the survey changes.json. Same
 /// settings, same bytes. Throws UsageError for unknown names and where files would be overwritten,
 /// IoError for what cannot be read or written.
 SynthSummary writeRecording(const SynthSettings& settings, const SynthProgress& progress);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "paloc/tools/synth_changeables.h"
 #include "paloc/tools/synth_mesh.h"
 
 namespace paloc::synth {
@@ -16,6 +17,7 @@ struct Scene {
   /// is the floor's height there.
   std::vector<Vec3> route;
   std::vector<Vec3> survey_stations;  ///< the scanner's position (scene frame, m)
+  Changeables changeables;            ///< what a recording may find changed
 };
 
 /// Names of all scenes, in the order of the help.

@@ -6,7 +6,7 @@
 #include "paloc/core/time.h"
 #include "paloc/frontends/CObservationLidarScan.h"
 #include "paloc/tools/synth_motion.h"
-#include "paloc/tools/synth_raycaster.h"
+#include "paloc/tools/synth_surroundings.h"
 
 namespace paloc::synth {
 
@@ -36,7 +36,7 @@ class LidarSimulator {
  public:
   /// All references must outlive the simulator.
   LidarSimulator(const SensorModel& sensor, const Pose& T_body_lidar, const SceneMesh& mesh,
-                 const Raycaster& raycaster, const Motion& motion, std::uint64_t seed);
+                 const Surroundings& surroundings, const Motion& motion, std::uint64_t seed);
 
   /// The scan whose first column fires at `stamp_ns`, with valid returns only. `index` picks its
   /// random numbers. Any number of threads may call it.
@@ -46,7 +46,7 @@ class LidarSimulator {
   const SensorModel& sensor_;
   Pose T_body_lidar_;
   const SceneMesh& mesh_;
-  const Raycaster& raycaster_;
+  const Surroundings& surroundings_;
   const Motion& motion_;
   std::uint64_t seed_;
 };
