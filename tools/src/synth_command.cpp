@@ -82,6 +82,11 @@ void SynthCommand::addModelOptions() {
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   command_
+      ->add_option("--odometry-scale", settings_.odometry.scale,
+                   "length of the odometry's steps over the true one, besides the drift")
+      ->check(CLI::Range(0.5, 2.0))
+      ->capture_default_str();
+  command_
       ->add_option("--range-noise", range_noise_m_,
                    "of the LiDAR (m, one sigma); else the sensor's own")
       ->check(CLI::Range(0.0, 1.0));

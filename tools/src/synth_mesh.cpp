@@ -89,6 +89,16 @@ void MeshBuilder::wall(const Pose& T_scene_piece, double length, double thicknes
   piece(at, length, 0, height);
 }
 
+void MeshBuilder::sweep(const Pose& T_scene_piece, const std::vector<Vec3>& line, const Vec3& along,
+                        float reflectivity) {
+  const std::uint32_t surface = newSurface(reflectivity);
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const Vec3 &a = line[i - 1], &b = line[i];
+    quad(T_scene_piece * a, T_scene_piece * b, T_scene_piece * (b + along),
+         T_scene_piece * (a + along), surface);
+  }
+}
+
 Pose onFloor(double x, double y, double yaw_deg, double z) {
   return {Vec3(x, y, z), so3::exp(Vec3(0, 0, yaw_deg * std::numbers::pi / 180))};
 }

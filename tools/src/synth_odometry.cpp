@@ -17,7 +17,7 @@ std::vector<StampedPose> simulateOdometry(const OdometryModel& model,
   RandomStream random(seed, RandomPurpose::kOdometry, 0);
   // A yaw drift of k rad/m leads k L^2 / 2 aside after L metres.
   const double part = model.drift / std::numbers::sqrt2;
-  const double scale = 1 + random.sign() * part;
+  const double scale = model.scale * (1 + random.sign() * part);
   const double yaw_per_m = random.sign() * 2 * part / kReferenceWay;
   std::vector<StampedPose> odometry;
   for (std::size_t i = 0; i < truth.size(); ++i) {

@@ -12,6 +12,15 @@ using SceneMaker = Scene (*)();
 // A further scene is a maker and a line here.
 constexpr std::pair<const char*, SceneMaker> kScenes[] = {
     {"building", makeBuilding},
+    {"room", makeRoom},
+    {"corridor-0", [] { return makeCorridor(0); }},
+    {"corridor-30", [] { return makeCorridor(30); }},
+    {"corridor-45", [] { return makeCorridor(45); }},
+    {"tunnel", makeTunnel},
+    {"open-field", makeOpenField},
+    {"stairwell", makeStairwell},
+    {"parking-deck", makeParkingDeck},
+    {"circular-hall", makeCircularHall},
 };
 
 }  // namespace

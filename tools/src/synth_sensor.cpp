@@ -47,8 +47,21 @@ SensorModel xt32() {
   return s;
 }
 
+/// 120 x 90 degrees in steps of 0.625 degrees, as the RoboSense E1 has.
+SensorModel solidState() {
+  constexpr double kDegree = std::numbers::pi / 180, kStepDeg = 0.625;
+  SensorModel s;
+  s.elevation_rad = evenBeams(144, -45 + kStepDeg / 2, 45 - kStepDeg / 2);
+  s.columns = 192;
+  s.field_rad = 120 * kDegree;
+  s.first_azimuth_rad = (60 - kStepDeg / 2) * kDegree;
+  s.min_range_m = 0.2;
+  s.max_range_m = 30;
+  return s;
+}
+
 constexpr std::pair<const char*, SensorModel (*)()> kSensors[] = {
-    {"os1-128", os1}, {"vlp-16", vlp16}, {"xt-32", xt32}};
+    {"os1-128", os1}, {"vlp-16", vlp16}, {"xt-32", xt32}, {"solid-state", solidState}};
 
 /// Whether the receiver sees the echo: its strength falls with the square of the range, and grazing
 /// rays get lost more and more below five degrees.
@@ -108,7 +121,7 @@ obs::CObservationLidarScan::Ptr LidarSimulator::scan(std::uint64_t index, TimeNs
     const TimeNs delay = sensor_.columnDelay(column);
     const MotionState state = motion_.at(stamp_ns + delay);
     const Pose T_map_lidar = state.T_map_body * T_body_lidar_;
-    const double azimuth = -2 * std::numbers::pi * column / sensor_.columns;
+    const double azimuth = sensor_.columnAzimuth(column);
     for (std::size_t i = 0; i < beams; ++i) {
       const double elevation = sensor_.elevation_rad[i];
       directions_lidar[i] = Vec3(std::cos(elevation) * std::cos(azimuth),

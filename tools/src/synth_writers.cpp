@@ -62,6 +62,7 @@ void writeDescription(const std::filesystem::path& file, const SynthSettings& se
       {"sensor", sensor.name},
       {"beams", sensor.elevation_rad.size()},
       {"columns", sensor.columns},
+      {"field_of_view_rad", sensor.field_rad},
       {"period_s", secondsBetween(0, sensor.period_ns)},
       {"stamp", "the first column; stamp + duration_ns is the last, and the end of the scan"},
       {"duration_s", secondsBetween(0, sensor.duration())},
@@ -88,6 +89,7 @@ void writeDescription(const std::filesystem::path& file, const SynthSettings& se
                       {"stamp", "the end of each scan"},
                       {"poses", summary.odometry_poses},
                       {"drift", settings.odometry.drift},
+                      {"scale", settings.odometry.scale},
                       {"step_noise_m", settings.odometry.step_noise_m},
                       {"step_noise_rad", settings.odometry.step_noise_rad},
                       {"end_error_m", summary.odometry_end_error_m}};

@@ -46,6 +46,12 @@ class MeshBuilder {
   void wall(const Pose& T_scene_piece, double length, double thickness, double height,
             const std::vector<WallOpening>& openings, float reflectivity);
 
+  /// The surface that an open line (at least two points, piece's frame) sweeps when it is moved by
+  /// `along`: one surface without thickness, seen from both sides. A curve of many short pieces
+  /// makes it smooth.
+  void sweep(const Pose& T_scene_piece, const std::vector<Vec3>& line, const Vec3& along,
+             float reflectivity);
+
   SceneMesh take() { return std::move(mesh_); }
 
  private:

@@ -13,7 +13,8 @@ enum class RandomPurpose : std::uint64_t {
   kOdometry,
   kSurvey,
   kSurfaceBias,
-  kRooms
+  kRooms,
+  kPose
 };
 
 /// A stream of random numbers of its own for (seed, purpose, index), so that work may be done in

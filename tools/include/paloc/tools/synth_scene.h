@@ -29,4 +29,27 @@ Scene makeScene(const std::string& name);
 /// A floor of an office building, 25 x 15 x 3 m: seven furnished rooms on a corridor.
 Scene makeBuilding();
 
+/// A furnished room, 8 x 6 x 3 m.
+Scene makeRoom();
+
+/// A bare corridor, 76 x 2.4 x 2.6 m, between two furnished rooms whose far sides stand open, so
+/// that from its inside nothing ends the view: its axis is free over some 60 m. The axis is turned
+/// by `yaw_deg` against the scene's x.
+Scene makeCorridor(double yaw_deg);
+
+/// A smooth, bare tunnel, 100 m long, open at both ends: a round bore of 3.2 m radius over a road.
+Scene makeTunnel();
+
+/// Flat ground with one wall, 60 m long and 4 m high.
+Scene makeOpenField();
+
+/// A stairwell of three storeys, 2.8 x 5.9 x 12 m.
+Scene makeStairwell();
+
+/// A parking deck, 48 x 30 x 2.8 m: pillars and parapets between a flat floor and a flat ceiling.
+Scene makeParkingDeck();
+
+/// A bare round hall of 12 m radius, 5 m high: its yaw is free.
+Scene makeCircularHall();
+
 }  // namespace paloc::synth

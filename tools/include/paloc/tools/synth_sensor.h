@@ -1,5 +1,6 @@
 #pragma once
 
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -10,12 +11,15 @@
 
 namespace paloc::synth {
 
-/// A spinning LiDAR: all beams of a column fire at once, the columns one after the other, clockwise
-/// as seen from above, beginning ahead (the sensor's +x).
+/// A LiDAR whose columns fire one after the other, clockwise as seen from above, all beams of a
+/// column at once. One that spins goes round once in a period, beginning ahead (the sensor's +x); a
+/// solid-state one sweeps its field of view from left to right and starts again.
 struct SensorModel {
   std::string name;
-  std::vector<double> elevation_rad;  ///< one per beam, upwards; the ring is the index
-  int columns = 0;                    ///< per turn
+  std::vector<double> elevation_rad;        ///< one per beam, upwards; the ring is the index
+  double first_azimuth_rad = 0;             ///< of column 0, from ahead to the left
+  double field_rad = 2 * std::numbers::pi;  ///< from column 0 to where the next one would follow
+  int columns = 0;                          ///< in the field
   TimeNs period_ns = kNsPerSecond / 10;
   double min_range_m = 0.5;
   double max_range_m = 120;     ///< at which a target of 10 % reflectivity still returns
@@ -23,10 +27,11 @@ struct SensorModel {
 
   /// When column `i` fires, after the first (ns, a multiple of MRPT's 100 ns tick).
   TimeNs columnDelay(int i) const { return (i * period_ns / columns + 50) / 100 * 100; }
+  double columnAzimuth(int i) const { return first_azimuth_rad - field_rad * i / columns; }
   TimeNs duration() const { return columnDelay(columns - 1); }
 };
 
-/// "os1-128", "vlp-16", "xt-32".
+/// "os1-128", "vlp-16", "xt-32", "solid-state".
 std::vector<std::string> sensorNames();
 /// Throws UsageError, naming those that exist, for an unknown name.
 SensorModel makeSensor(const std::string& name);
