@@ -112,7 +112,8 @@ TEST(SynthSensors, TheSolidStateOneSeesItsFieldOnlyFromLeftToRight) {
   const Scene scene = makeRoom();
   const Raycaster raycaster(scene.mesh);
   const Motion still({Pose{Vec3(3, 2, 1.4), Mat3::Identity()}}, 0.05, 0);
-  const auto scan = LidarSimulator(sensor, Pose{}, scene.mesh, raycaster, still, 1).scan(0, 0);
+  const Surroundings surroundings(raycaster);
+  const auto scan = LidarSimulator(sensor, Pose{}, scene.mesh, surroundings, still, 1).scan(0, 0);
   ASSERT_GT(scan->size(), 20'000U);
   EXPECT_LE(scan->size(), 144U * 192U);
   double leftmost = -10, rightmost = 10, highest = -10, lowest = 10;

@@ -16,12 +16,6 @@ Vec3 toVec(const Point3f& p) {
   return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
 }
 
-Region movedBy(Region region, const Vec3& by) {
-  region.low += by;
-  region.high += by;
-  return region;
-}
-
 std::uint32_t newSurface(SceneMesh& mesh, float reflectivity) {
   mesh.surface_reflectivity.push_back(reflectivity);
   return static_cast<std::uint32_t>(mesh.surfaces() - 1);
