@@ -8,9 +8,9 @@
 namespace paloc {
 namespace {
 
-constexpr double kConstrainingCosine = 0.5;
+constexpr double kConstrainingCosine = 0.1;  // well above the noise of any normal
 constexpr double kSignalToNoise = 10;
-constexpr double kFullShare = 0.1;
+constexpr double kFullShare = 0.005;
 constexpr double kFull = 0.95, kNone = 0.05;
 constexpr double kUnknownInformation = 1e-12;  // keeps the sigma of a free direction finite
 

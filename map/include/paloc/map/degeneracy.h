@@ -30,7 +30,7 @@ struct ObservedDirections {
 /// follow, moves the point p by m = v + w x p, where (v, w) = (v, -H_RR^-1 H_Rt v), or likewise for
 /// a rotation. Of each direction:
 ///
-/// - share: of the points, those whose normal sees that motion, |n . m| > |m| / 2, over
+/// - share: of the points, those whose normal sees that motion, |n . m| > |m| / 10, over
 ///   the largest share of the three directions of its kind;
 /// - probability: that the information q = sum (n . m)^2 / D is more than noise. Errors of the
 ///   normals (isotropic, sigma_n) and of the points alone give it the mean
@@ -39,7 +39,8 @@ struct ObservedDirections {
 ///   (after Hatleskog and Alexis, "Probabilistic Degeneracy Detection for Point-to-Plane Error
 ///   Minimization", 2024).
 ///
-/// Their product (share up to 1/10 counts in proportion) scales the information along the
+/// Their product (a share up to 1/200 counts in proportion: a handful of
+/// points may be wrong together) scales the information along the
 /// direction, and classes it: full above 0.95, none below 0.05, which leaves exactly zero. Scaled
 /// by f, the information becomes H - (1 - f) x x^T / (v^T S v) with x = (S v, 0): what other
 /// directions know by way of v stays. `information` is that of the rows in the tangent of PlaneRow,

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "paloc/tools/command.h"
+
+namespace paloc {
+
+// They register themselves below `bench`.
+std::unique_ptr<Command> makeBenchDegeneracyCommand();
+std::unique_ptr<Command> makeBenchRegistrationCommand();
+std::unique_ptr<Command> makeBenchSmootherCommand();
+
+/// Prints to standard output; throws IoError where that fails.
+void printResult(const std::string& result);
+
+}  // namespace paloc
