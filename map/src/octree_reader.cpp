@@ -33,7 +33,8 @@ bool seenBefore(const OctreeMap& map, const Cell& cell, int face) {
 }  // namespace
 
 PointCloud readOctree(const InputFile& file, const LoadOptions& options) {
-  const OctreeMap map = readOctreeMap(file, MemoryBudget(options.memory_limit_bytes));
+  const MemoryBudget budget(options.memory_limit_bytes);
+  const OctreeMap map = readOctreeMap(file, budget);
   std::uint64_t most = 0;
   map.forEachPatch([&](const OctreeMap::Patch& patch) {
     if (patch.beyond != State::kFree) return;
@@ -41,6 +42,9 @@ PointCloud readOctree(const InputFile& file, const LoadOptions& options) {
   });
   if (most == 0) file.fail("has no occupied cell that borders free space");
   if (most > kMostPoints) file.fail(text("its surface has ", most, " cells, too many"));
+  // A few bytes may stand for a block with millions of cells on its faces. Thinned or not: they are
+  // as far apart as the map is fine, so little falls together, and time follows them, too.
+  budget.require(most * sizeof(Point3f), text(file.name(), ": its surface of ", most, " cells"));
   const CloudFields fields({{"x"}, {"y"}, {"z"}}, file);
   CloudBuilder builder(file, fields, most, options);
   std::size_t rows = 0;

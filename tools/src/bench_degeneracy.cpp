@@ -79,7 +79,8 @@ class Place {
 Scan Place::scanAt(const synth::SensorModel& sensor, const Pose& T_map_body,
                    std::size_t index) const {
   const synth::Motion still({T_map_body}, 0.05, 0);
-  const synth::LidarSimulator simulator(sensor, T_body_lidar_, scene_.mesh, raycaster_, still,
+  const synth::Surroundings surroundings(raycaster_);
+  const synth::LidarSimulator simulator(sensor, T_body_lidar_, scene_.mesh, surroundings, still,
                                         settings_.seed);
   const auto observation = simulator.scan(index, 0);
   Scan scan;
@@ -153,7 +154,7 @@ BenchDegeneracyRow Place::tryOut(const std::string& sensor_name, std::ostream* l
       ++row.score.refused;
       continue;
     }
-    row.directions_ms.push_back(1e3 * matcher->lastTiming().directions_s);
+    row.directions_ms.push_back(1e3 * matcher->lastTiming().information_s);
     row.score.add(labels, match.directions);
   }
   return row;

@@ -73,7 +73,8 @@ std::vector<Case> simulatedCases(const synth::Rooms& rooms,
   std::vector<Case> cases;
   for (std::size_t i = 0; i < rooms.places.size(); ++i) {
     const synth::Motion still({rooms.places[i]}, 1, 0);
-    const synth::LidarSimulator simulator(sensor, Pose{}, rooms.mesh, raycaster, still,
+    const synth::Surroundings surroundings(raycaster);
+    const synth::LidarSimulator simulator(sensor, Pose{}, rooms.mesh, surroundings, still,
                                           settings.seed);
     const auto seen = simulator.scan(i, 0);
     Case one;

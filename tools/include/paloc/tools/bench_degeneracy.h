@@ -27,7 +27,7 @@ struct BenchDegeneracySettings {
 struct BenchDegeneracyRow {
   std::string scene, sensor;
   DegeneracyScore score;
-  std::vector<double> directions_ms;  ///< of the detector, a match each
+  std::vector<double> directions_ms;  ///< of information and directions, a match each
 };
 
 using BenchDegeneracyProgress = std::function<void(const std::string& scene_and_sensor)>;
