@@ -9,7 +9,9 @@ namespace paloc {
 namespace {
 
 constexpr double kConstrainingCosine = 0.1;  // well above the noise of any normal
-constexpr double kSignalToNoise = 10;
+// What is known of a direction must be twice what noise alone would give: its sigma is then told
+// too small by a fifth at most.
+constexpr double kSignalToNoise = 2;
 constexpr double kFullShare = 0.005;
 constexpr double kFull = 0.95, kNone = 0.05;
 constexpr double kUnknownInformation = 1e-12;  // keeps the sigma of a free direction finite

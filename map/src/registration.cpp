@@ -244,23 +244,33 @@ void Registration::assignPatchesOnce() {
   for (std::size_t k = 0; k < rows_.size(); ++k) rows_[k].patch = patches_[k];
 }
 
-// The directions as some of the points see them; as all do, where some leave a doubt.
-ObservedDirections Registration::glimpse(const Pose& pose, double scale,
-                                         const NormalEquations& all) {
-  const std::size_t step = std::max<std::size_t>(matched_.size() / kGlimpse, 1);
+// The rows of every `step`-th match, without their robust weights.
+std::vector<PlaneRow> Registration::unweightedRows(const Pose& pose, double scale,
+                                                   std::size_t step) const {
   const Mat3 R_body_local = pose.rotation.transpose();
-  std::vector<PlaneRow> some;
+  std::vector<PlaneRow> rows;
   for (std::size_t k = 0; k < matched_.size(); k += step) {
-    some.push_back(rowOf(matched_[k], R_body_local, scale));
+    rows.push_back(rowOf(matched_[k], R_body_local, scale));
+    const double sigma = scale * matches_[matched_[k]].sigma;
+    rows.back().variance = sigma * sigma;
   }
-  ObservedDirections observed =
-      observeDirections(some, sharedErrorEquations(some, {}).information, noise());
+  return rows;
+}
+
+// The directions as some of the points see them; as all do, where some leave a doubt. Without
+// robust weights: where the start is wrong along a direction, the few points that could tell are
+// far off their planes, and a direction that is held is never corrected.
+ObservedDirections Registration::glimpse(const Pose& pose, double scale) const {
+  const auto look = [&](std::size_t step) {
+    const std::vector<PlaneRow> rows = unweightedRows(pose, scale, step);
+    return observeDirections(rows, sharedErrorEquations(rows, {}).information, noise());
+  };
+  const std::size_t step = std::max<std::size_t>(matched_.size() / kGlimpse, 1);
+  const ObservedDirections observed = look(step);
   const bool sure = std::all_of(
       observed.directions.begin(), observed.directions.end(),
       [](const MatchDirection& direction) { return direction.cls == DirectionClass::kFull; });
-  if (sure || step == 1) return observed;
-  fillRows(pose, scale);
-  return observeDirections(rows_, all.information, noise());
+  return sure || step == 1 ? observed : look(1);
 }
 
 void Registration::summarize(double scale, Alignment& alignment) {
@@ -321,7 +331,7 @@ Alignment Registration::align(const Pose& start, const AlignSchedule& schedule) 
         system = sharedErrorEquations(rows_, shared_errors_);
       }
       alignment.information_body = system.information;
-      if (look) anchors.hold(glimpse(pose, scale, system));
+      if (look) anchors.hold(glimpse(pose, scale));
     }
     anchors.addTo(system, differenceInBody(pose, start));
     Vec6 step;

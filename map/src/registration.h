@@ -93,7 +93,8 @@ class Registration {
   void moveRows(const Vec6& step);
   void assignPatchesOnce();
   PlaneRow rowOf(std::size_t point, const Mat3& R_body_local, double scale) const;
-  ObservedDirections glimpse(const Pose& pose, double scale, const NormalEquations& all);
+  std::vector<PlaneRow> unweightedRows(const Pose& pose, double scale, std::size_t step) const;
+  ObservedDirections glimpse(const Pose& pose, double scale) const;
   void summarize(double scale, Alignment& alignment);
 
   const PriorMap& map_;

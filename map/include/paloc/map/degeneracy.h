@@ -35,7 +35,7 @@ struct ObservedDirections {
 /// - probability: that the information q = sum (n . m)^2 / D is more than noise. Errors of the
 ///   normals (isotropic, sigma_n) and of the points alone give it the mean
 ///   E = sum (sigma_n^2 (|m|^2 - (n . m)^2) + sigma_p^2 |w x n|^2) / D and a variance; the
-///   direction is informative when its true part q - E exceeds 10 E, taken as normally distributed
+///   direction is informative when its true part q - E exceeds 2 E, taken as normally distributed
 ///   (after Hatleskog and Alexis, "Probabilistic Degeneracy Detection for Point-to-Plane Error
 ///   Minimization", 2024).
 ///
