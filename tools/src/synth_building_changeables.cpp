@@ -11,8 +11,8 @@ constexpr double kSill = 0.9, kWindow = 1.3;  // m, height of the sill and of th
 // Places are those of synth_building.cpp. None of it stands in the way of the walk.
 Changeables buildingChangeables() {
   Changeables c;
-  c.walls = {{"wall between N1 and N2", {{4.8, 8.75, -0.1}, {5.2, 15.1, 3.1}}, Vec3::UnitX()},
-             {"wall between N3 and N4", {{17.85, 8.75, -0.1}, {18.15, 15.1, 3.1}}, -Vec3::UnitX()}};
+  c.walls = {{"wall between N1 and N2", {{4.8, 8.65, -0.1}, {5.2, 15.1, 3.1}}, Vec3::UnitX()},
+             {"wall between N3 and N4", {{17.85, 8.65, -0.1}, {18.15, 15.1, 3.1}}, -Vec3::UnitX()}};
   c.furniture = {{"table in S1", {{3.0, 2.8, -0.01}, {4.6, 3.8, 0.8}}},
                  {"desk and chair in N2", {{8.8, 10.0, -0.01}, {10.6, 11.6, 1.4}}},
                  {"cupboard in the corridor", {{13.3, 6.565, -0.01}, {14.9, 7.05, 2.0}}},

@@ -11,6 +11,20 @@ constexpr double kBeside = 0.5;                    // m to the left of it
 constexpr double kPiece = 8, kWalkingSpeed = 1.2;  // m, m/s: to and fro
 constexpr double kKnotDistance = 0.05;             // m
 
+// Where the way turns back, its left side jumps to the other: people go round in half a second.
+WalkingPeople::Track smoothed(const WalkingPeople::Track& track) {
+  constexpr std::size_t kReach = 10;  // steps to each side
+  WalkingPeople::Track smooth;
+  for (std::size_t i = 0; i < track.size(); ++i) {
+    const std::size_t from = i < kReach ? 0 : i - kReach;
+    const std::size_t to = std::min(i + kReach + 1, track.size());
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t k = from; k < to; ++k) sum += track[k];
+    smooth.push_back(sum / static_cast<double>(to - from));
+  }
+  return smooth;
+}
+
 /// The way of the body over the floor, by its length.
 class Way {
  public:
@@ -101,7 +115,7 @@ WalkingPeople::WalkingPeople(std::size_t count, const Motion& motion, const Rayc
                                      : middle + kPiece * (turn - 0.5);
       track.push_back(onTheFloor(way.at(s), scene) + kBeside * way.leftOf(s));
     }
-    tracks_.push_back(std::move(track));
+    tracks_.push_back(smoothed(track));
   }
 }
 
