@@ -84,6 +84,8 @@ std::map<std::string, Words> soundCalls(const test::TempDir& dir) {
       {"map info", {"map", "info", dir / "demo/map.ply"}},
       {"map convert", {"map", "convert", dir / "demo/map.ply", dir / "map.pcd"}},
       {"bench smoother", {"bench", "smoother", "--problem", dir / "resting.problem"}},
+      {"bench degeneracy",
+       {"bench", "degeneracy", "--scenes", "room", "--sensors", "vlp-16", "--poses", "1"}},
       {"bench registration",
        {"bench", "registration", "--map-points", "20000", "--places", "2", "--threads", "1"}},
   };

@@ -173,7 +173,7 @@ TEST(Config, SensorPresetsLoadAndChangeSomething) {
     ++presets;
     EXPECT_NE(dumpConfig(loadConfig(entry.path())), dumpConfig(Config{})) << entry.path();
   }
-  EXPECT_EQ(presets, 4);
+  EXPECT_EQ(presets, 5);
 }
 
 TEST(Config, OverlayKeepsWhatTheFileLeavesOutAndIsAllOrNothing) {
