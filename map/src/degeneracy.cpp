@@ -114,12 +114,16 @@ double factorOf(const MatchDirection& direction) {
   return factor < kNone ? 0 : factor;
 }
 
-// The three directions of one kind, weakest first, with shares, probabilities and sigmas.
+// The three directions of one kind, weakest first, with shares, probabilities and sigmas. They are
+// those of the rows alone: shared errors blur them, since a bias of the range turns the weakest
+// axis towards whatever the bias moves most.
 void observeKind(std::span<const PlaneRow> rows, const Mat6& information,
                  const DegeneracyNoise& noise, int own, std::array<MatchDirection, 6>& directions) {
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(schurComplement(information, own));
-  const Mat3 follow = followingMotion(rows, information, own, noise);
-  std::array<double, 3> counts{}, eigenvalues{};
+  const Mat6 geometry = leastSquares(rows).information;
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(schurComplement(geometry, own));
+  const Mat3 follow = followingMotion(rows, geometry, own, noise);
+  const Mat3 schur = schurComplement(information, own);
+  std::array<double, 3> counts{}, along{};
   std::array<Motion, 3> motions;
   for (int i = 0; i < 3; ++i) {
     const Vec3 axis = solver.eigenvectors().col(i);
@@ -134,7 +138,8 @@ void observeKind(std::span<const PlaneRow> rows, const Mat6& information,
         directions[static_cast<std::size_t>(own) + static_cast<std::size_t>(i)];
     direction.axis_body = solver.eigenvectors().col(i);
     direction.probability = informativeProbability(support);
-    eigenvalues[static_cast<std::size_t>(i)] = std::max(solver.eigenvalues()[i], 0.0);
+    along[static_cast<std::size_t>(i)] =
+        std::max(direction.axis_body.dot(schur * direction.axis_body), 0.0);
     counts[static_cast<std::size_t>(i)] = support.count;
   }
   const double largest = std::max({counts[0], counts[1], counts[2], 1.0});
@@ -143,7 +148,7 @@ void observeKind(std::span<const PlaneRow> rows, const Mat6& information,
     direction.share = counts[i] / largest;
     const double factor = factorOf(direction);
     direction.cls = classOf(factor);
-    direction.sigma = 1 / std::sqrt(std::max(factor * eigenvalues[i], kUnknownInformation));
+    direction.sigma = 1 / std::sqrt(std::max(factor * along[i], kUnknownInformation));
   }
 }
 

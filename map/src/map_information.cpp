@@ -1,5 +1,6 @@
 #include "paloc/map/map_information.h"
 
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -81,58 +82,44 @@ std::size_t firstPatch(const PlaneRow& row, const std::vector<Patch>& patches,
   return patches.size();
 }
 
-struct PatchSums {
-  Vec6 jacobian = Vec6::Zero();  // Y_k
-  double weight = 0;             // sum 1/D
-  double range = 0;              // g_k
-  double residual = 0;           // sum r/D
-};
-
 }  // namespace
 
-NormalEquations sharedErrorEquations(std::span<const PlaneRow> rows, const SharedErrors& shared) {
-  std::vector<PatchSums> sums(shared.patch_variances.size());
+NormalEquations leastSquares(std::span<const PlaneRow> rows) {
   NormalEquations equations;
   Mat6 upper = Mat6::Zero();
-  Vec6 range_jacobian = Vec6::Zero();
-  double range_weight = 0, range_residual = 0;
   for (const PlaneRow& row : rows) {
     const Vec6 j = row.jacobian();
-    const double weight = 1 / row.variance;
-    const Vec6 weighted = weight * j;
+    const Vec6 weighted = j / row.variance;
     for (int column = 0; column < 6; ++column) {
       for (int k = 0; k <= column; ++k) upper(k, column) += weighted[k] * j[column];
     }
     equations.gradient += weighted * row.residual;
-    range_jacobian += row.range_factor * weighted;
-    range_weight += weight * row.range_factor * row.range_factor;
-    range_residual += weight * row.range_factor * row.residual;
-    if (row.patch < 0 || sums.empty()) continue;
-    PatchSums& patch = sums[static_cast<std::size_t>(row.patch)];
-    patch.jacobian += weighted;
-    patch.weight += weight;
-    patch.range += weight * row.range_factor;
-    patch.residual += weight * row.residual;
   }
   equations.information = upper.selfadjointView<Eigen::Upper>();
-  for (std::size_t k = 0; k < sums.size(); ++k) {
-    if (shared.patch_variances[k] <= 0) continue;
-    const PatchSums& patch = sums[k];
-    const double inverse = 1 / (1 / shared.patch_variances[k] + patch.weight);
-    equations.information.noalias() -= inverse * patch.jacobian * patch.jacobian.transpose();
-    equations.gradient -= (inverse * patch.residual) * patch.jacobian;
-    range_jacobian -= (inverse * patch.range) * patch.jacobian;
-    range_weight -= inverse * patch.range * patch.range;
-    range_residual -= inverse * patch.range * patch.residual;
-  }
-  if (shared.range_bias_m > 0) {
-    const double inverse = 1 / (1 / (shared.range_bias_m * shared.range_bias_m) + range_weight);
-    equations.information.noalias() -= inverse * range_jacobian * range_jacobian.transpose();
-    equations.gradient -= (inverse * range_residual) * range_jacobian;
-  }
-  equations.information =
-      (0.5 * (equations.information + equations.information.transpose())).eval();
   return equations;
+}
+
+Mat6 informationUnderSharedErrors(std::span<const PlaneRow> rows, const SharedErrors& shared) {
+  using Square = Eigen::Matrix<double, 6, 6>;
+  std::vector<Vec6> patch_sums(shared.patch_variances.size(), Vec6::Zero());  // Y_k
+  Vec6 range_sum = Vec6::Zero();                                              // y
+  for (const PlaneRow& row : rows) {
+    const Vec6 weighted = row.jacobian() / row.variance;
+    range_sum += row.range_factor * weighted;
+    if (row.patch >= 0 && !patch_sums.empty()) {
+      patch_sums[static_cast<std::size_t>(row.patch)] += weighted;
+    }
+  }
+  const Square independent = leastSquares(rows).information;
+  Square spread =
+      independent + (shared.range_bias_m * shared.range_bias_m) * range_sum * range_sum.transpose();
+  for (std::size_t k = 0; k < patch_sums.size(); ++k) {
+    spread += shared.patch_variances[k] * patch_sums[k] * patch_sums[k].transpose();
+  }
+  // What no row fixes is zero in both; the ridge only keeps the solve from dividing zero by zero.
+  spread += 1e-12 * spread.diagonal().maxCoeff() * Square::Identity();
+  const Square information = independent * spread.ldlt().solve(independent);
+  return 0.5 * (information + information.transpose());
 }
 
 std::vector<double> assignPatches(std::span<PlaneRow> rows, double patch_m, double plane_bias_m) {

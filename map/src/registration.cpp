@@ -20,7 +20,7 @@ constexpr double kKernel = 3.0;  // of the Geman-McClure kernel, in robust stand
 constexpr double kInlier = 3.0;  // the same, for what counts as an inlier
 constexpr double kMadToSigma = 1.4826;
 constexpr double kConvergedM = 1e-4, kConvergedRad = 2e-5;
-// Steps below which shared errors are taken into account: the patches then hold.
+// Steps below which the points of the first steps do no more.
 constexpr double kNearM = 5e-3, kNearRad = 1e-3;
 // Points that are enough for the first steps, for a scale on the way, and for a first look at the
 // directions.
@@ -230,18 +230,11 @@ void Registration::moveRows(const Vec6& step) {
   }
 }
 
-// The rows' patches; those of the same points remain from step to step, since by then these are
-// small against a patch.
-void Registration::assignPatchesOnce() {
-  if (patched_ != matched_) {
-    patched_ = matched_;
-    shared_errors_.patch_variances =
-        assignPatches(rows_, settings_.plane_patch_m, settings_.plane_bias_m);
-    patches_.resize(rows_.size());
-    for (std::size_t k = 0; k < rows_.size(); ++k) patches_[k] = rows_[k].patch;
-    return;
-  }
-  for (std::size_t k = 0; k < rows_.size(); ++k) rows_[k].patch = patches_[k];
+Mat6 Registration::informationOfRows(bool shared) {
+  if (!shared) return leastSquares(rows_).information;
+  const SharedErrors errors{assignPatches(rows_, settings_.plane_patch_m, settings_.plane_bias_m),
+                            settings_.range_bias_m};
+  return informationUnderSharedErrors(rows_, errors);
 }
 
 // The rows of every `step`-th match, without their robust weights.
@@ -263,7 +256,7 @@ std::vector<PlaneRow> Registration::unweightedRows(const Pose& pose, double scal
 ObservedDirections Registration::glimpse(const Pose& pose, double scale) const {
   const auto look = [&](std::size_t step) {
     const std::vector<PlaneRow> rows = unweightedRows(pose, scale, step);
-    return observeDirections(rows, sharedErrorEquations(rows, {}).information, noise());
+    return observeDirections(rows, leastSquares(rows).information, noise());
   };
   const std::size_t step = std::max<std::size_t>(matched_.size() / kGlimpse, 1);
   const ObservedDirections observed = look(step);
@@ -292,18 +285,17 @@ void Registration::summarize(double scale, Alignment& alignment) {
   alignment.residual_median_m = *middle;
 }
 
-// A step of plain least squares on part of the points at first, on all of them later; at the end
-// of generalized least squares under shared errors. The last step is so small that the equations
+// Steps of robust least squares on part of the points at first, on all of them later; the errors
+// that points share are in the information only. The last step is so small that the equations
 // that gave it hold after it, too.
 Alignment Registration::align(const Pose& start, const AlignSchedule& schedule) {
   Alignment alignment;
   Pose& pose = alignment.T_local_body;
   pose = start;
   Anchors anchors;
-  bool rough = true, shared = false, look = true;
+  bool rough = true, look = true;
   double scale = 1;
   rows_.clear();
-  patched_.clear();
   matches_.assign(points_.size(), {});
   const std::size_t coarse = std::max<std::size_t>(points_.size() / kCoarsePoints, 1);
   for (int i = 0; i < schedule.max_iterations && !alignment.converged; ++i) {
@@ -314,46 +306,35 @@ Alignment Registration::align(const Pose& start, const AlignSchedule& schedule) 
     }
     alignment.iterations = i + 1;
     if (matched_.size() < kMinRows) break;
-    NormalEquations system;
-    {
-      const AddTime time(alignment.timing.solve_s);
-      scale = robustScale(shared ? matched_.size() : kScaleSample);
-      if (shared) {
-        fillRows(pose, scale);
-      } else {
-        system = plainEquations(pose, scale);
-      }
-    }
-    {
-      const AddTime time(alignment.timing.information_s);
-      if (shared) {
-        assignPatchesOnce();
-        system = sharedErrorEquations(rows_, shared_errors_);
-      }
-      alignment.information_body = system.information;
-      if (look) anchors.hold(glimpse(pose, scale));
-    }
+    const AddTime time(alignment.timing.solve_s);
+    scale = robustScale(kScaleSample);
+    NormalEquations system = plainEquations(pose, scale);
+    if (look) anchors.hold(glimpse(pose, scale));
     anchors.addTo(system, differenceInBody(pose, start));
     Vec6 step;
     if (!solveStep(system, step)) break;
     const double position = step.head<3>().norm(), rotation = step.tail<3>().norm();
-    const bool near = position < kNearM && rotation < kNearRad;
-    alignment.converged = !rough && shared == schedule.shared_errors && position < kConvergedM &&
-                          rotation < kConvergedRad;
-    if (alignment.converged && !shared) fillRows(pose, scale);
-    if (alignment.converged) moveRows(step);
+    alignment.converged = !rough && position < kConvergedM && rotation < kConvergedRad;
+    if (alignment.converged) {
+      fillRows(pose, scale);
+      moveRows(step);
+    }
     pose = movedInBody(pose, step);
     // The directions are looked at once with few points and the wide gate, once with all.
+    const bool near = position < kNearM && rotation < kNearRad;
     const bool was_rough = std::exchange(
         rough,
         i + 1 < schedule.first_iterations ||
             (rough && coarse > 1 && !near && i + 1 < schedule.first_iterations + kMoreRough));
     look = was_rough && !rough;
-    shared = schedule.shared_errors && !was_rough && (shared || near);
   }
   if (!alignment.converged) {
     associate(pose, schedule.gate_m, alignment.iterations, 1);
     fillRows(pose, scale);
+  }
+  {
+    const AddTime time(alignment.timing.information_s);
+    alignment.information_body = informationOfRows(schedule.shared_errors);
   }
   summarize(scale, alignment);
   return alignment;

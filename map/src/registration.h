@@ -19,7 +19,7 @@ struct AlignSchedule {
   int first_iterations = 2;
   double gate_m = 0.2;
   int max_iterations = 20;
-  bool shared_errors = true;  ///< end with generalized least squares under shared errors
+  bool shared_errors = true;  ///< the information takes the errors into account that points share
 };
 
 /// Time of the parts of an alignment, over all iterations (s).
@@ -45,9 +45,7 @@ struct Alignment {
 class Registration {
  public:
   Registration(const PriorMap& map, const MatcherSettings& settings, tbb::task_arena& arena)
-      : map_(map), settings_(settings), arena_(arena) {
-    shared_errors_.range_bias_m = settings.range_bias_m;
-  }
+      : map_(map), settings_(settings), arena_(arena) {}
 
   /// The points (body frame, m) to be registered next and where their rays start.
   void setPoints(std::vector<Point3f> points_body, const Vec3& sensor_position_body);
@@ -91,7 +89,7 @@ class Registration {
   NormalEquations plainEquations(const Pose& pose, double scale);
   void fillRows(const Pose& pose, double scale);
   void moveRows(const Vec6& step);
-  void assignPatchesOnce();
+  Mat6 informationOfRows(bool shared);
   PlaneRow rowOf(std::size_t point, const Mat3& R_body_local, double scale) const;
   std::vector<PlaneRow> unweightedRows(const Pose& pose, double scale, std::size_t step) const;
   ObservedDirections glimpse(const Pose& pose, double scale) const;
@@ -107,9 +105,6 @@ class Registration {
   std::vector<std::uint32_t> matched_;  // points with a plane, ascending
   std::vector<PlaneRow> rows_;          // one per matched point
   std::vector<double> scratch_;
-  std::vector<std::uint32_t> patched_;  // the matched points that have the patches below
-  std::vector<int> patches_;            // of the rows
-  SharedErrors shared_errors_;
   int near_ = 0;
 };
 

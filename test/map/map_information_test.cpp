@@ -34,11 +34,12 @@ TEST(MapInformation, EqualsTheDenseFormula) {
     const SharedErrors shared{{1e-5, 4e-5, 9e-5, 2e-6, 3e-5}, range_bias};
     const auto n = static_cast<Eigen::Index>(rows.size());
     Eigen::MatrixXd jacobian(n, 6), covariance = Eigen::MatrixXd::Zero(n, n);
-    Eigen::VectorXd residual(n);
+    Eigen::VectorXd residual(n), own(n);
     for (Eigen::Index i = 0; i < n; ++i) {
       const PlaneRow& a = rows[static_cast<std::size_t>(i)];
       jacobian.row(i) = a.jacobian().transpose();
       residual[i] = a.residual;
+      own[i] = a.variance;
       covariance(i, i) += a.variance;
       for (Eigen::Index j = 0; j < n; ++j) {
         const PlaneRow& b = rows[static_cast<std::size_t>(j)];
@@ -48,18 +49,36 @@ TEST(MapInformation, EqualsTheDenseFormula) {
         }
       }
     }
-    const Eigen::MatrixXd weighted = covariance.inverse() * jacobian;
-    const Eigen::MatrixXd expected = jacobian.transpose() * weighted;
-    const NormalEquations equations = sharedErrorEquations(rows, shared);
-    EXPECT_LT((equations.information - expected).norm(), 1e-9 * expected.norm());
+    // The estimate is a linear map of the residuals, gain * r: its covariance is gain C gain^T.
+    const Eigen::MatrixXd weighted = own.cwiseInverse().asDiagonal() * jacobian;
+    const Eigen::MatrixXd hessian = jacobian.transpose() * weighted;
+    const Eigen::MatrixXd gain = hessian.ldlt().solve(weighted.transpose());
+    const Eigen::MatrixXd expected = (gain * covariance * gain.transpose()).inverse();
+    EXPECT_LT((informationUnderSharedErrors(rows, shared) - expected).norm(),
+              1e-9 * expected.norm());
+    const NormalEquations equations = leastSquares(rows);
+    EXPECT_LT((equations.information - hessian).norm(), 1e-12 * hessian.norm());
     const Eigen::VectorXd gradient = weighted.transpose() * residual;
-    EXPECT_LT((equations.gradient - gradient).norm(), 1e-9 * gradient.norm());
+    EXPECT_LT((equations.gradient - gradient).norm(), 1e-12 * gradient.norm());
+    EXPECT_LT((informationUnderSharedErrors(rows, {}) - hessian).norm(), 1e-9 * hessian.norm());
   }
+}
+
+TEST(MapInformation, NoInformationWhereNoRowFixesADirection) {
+  std::mt19937 random(5);
+  std::vector<PlaneRow> rows = randomRows(60, 5, random);
+  for (PlaneRow& row : rows) {
+    row.normal_body.x() = 0;
+    row.normal_body.normalize();
+  }
+  const Mat6 information =
+      informationUnderSharedErrors(rows, {{1e-5, 4e-5, 9e-5, 2e-6, 3e-5}, 0.004});
+  EXPECT_LT(information.col(0).norm(), 1e-9 * information.norm());
 }
 
 TEST(MapInformation, TurnsTranslationIntoTheMap) {
   std::mt19937 random(4);
-  const Mat6 body = sharedErrorEquations(randomRows(40, 0, random), {}).information;
+  const Mat6 body = leastSquares(randomRows(40, 0, random)).information;
   const Mat3 R = so3::exp(Vec3(0.3, -0.8, 1.1));
   Vec6 delta_body, delta_map;
   delta_body << 0.1, -0.2, 0.3, 0.05, 0.02, -0.01;
@@ -98,23 +117,19 @@ std::vector<PlaneRow> rowsInRoom(const test::BoxWorld& world, const Scan& scan, 
 TEST(MapInformation, CovarianceHoldsUnderSharedBiases) {
   const test::BoxWorld world = test::emptyRoom();
   const Pose truth{Vec3(0.7, -0.4, 1.3), so3::exp(Vec3(0.02, 0.03, 0.6))};
-  constexpr int kRuns = 200;
+  constexpr int kRuns = 400;
   for (double bias : {0.0, 0.003, 0.005, 0.01}) {
     double nees = 0, plain_nees = 0;
     for (unsigned run = 0; run < kRuns; ++run) {
       const Scan scan = test::simulateScan(world, truth, 3000, {0.02, bias, bias}, 30, 100 + run);
       std::vector<PlaneRow> rows = rowsInRoom(world, scan, truth, 0.02);
       const SharedErrors shared{assignPatches(rows, 20, bias), bias};
-      const NormalEquations joint = sharedErrorEquations(rows, shared);
-      const NormalEquations plain = sharedErrorEquations(rows, {});
-      const auto neesOf = [](const NormalEquations& e) {
-        const Eigen::Matrix<double, 6, 6> information = e.information;
-        const Eigen::Matrix<double, 6, 1> gradient = e.gradient;
-        const Eigen::Matrix<double, 6, 1> error = information.ldlt().solve(gradient);
-        return error.dot(information * error) / 6;
-      };
-      nees += neesOf(joint) / kRuns;
-      plain_nees += neesOf(plain) / kRuns;
+      const NormalEquations plain = leastSquares(rows);
+      const Eigen::Matrix<double, 6, 6> hessian = plain.information;
+      const Eigen::Matrix<double, 6, 1> gradient = plain.gradient;
+      const Vec6 error = hessian.ldlt().solve(gradient);
+      nees += error.dot(informationUnderSharedErrors(rows, shared) * error) / 6 / kRuns;
+      plain_nees += error.dot(plain.information * error) / 6 / kRuns;
     }
     std::cout << "bias " << bias * 1e3 << " mm: NEES/dof " << nees << ", plain sum " << plain_nees
               << "\n";

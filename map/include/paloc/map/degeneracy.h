@@ -25,10 +25,10 @@ struct ObservedDirections {
 };
 
 /// Classes the directions of a pose (design, 4.6). They are the eigenvectors of the Schur
-/// complements S_t = H_tt - H_tR H_RR^-1 H_Rt and S_R, so that a corridor shows whichever way it
-/// lies and rotation and translation do not mix. Moving along direction v, the other three free to
-/// follow, moves the point p by m = v + w x p, where (v, w) = (v, -H_RR^-1 H_Rt v), or likewise for
-/// a rotation. Of each direction:
+/// complements S_t = H_tt - H_tR H_RR^-1 H_Rt and S_R of the rows' own H = J^T D^-1 J, so that a
+/// corridor shows whichever way it lies and rotation and translation do not mix. Moving along
+/// direction v, the other three free to follow, moves the point p by m = v + w x p, where (v, w) =
+/// (v, -H_RR^-1 H_Rt v), or likewise for a rotation. Of each direction:
 ///
 /// - share: of the points, those whose normal sees that motion, |n . m| > |m| / 10, over
 ///   the largest share of the three directions of its kind;
@@ -43,9 +43,9 @@ struct ObservedDirections {
 /// points may be wrong together) scales the information along the
 /// direction, and classes it: full above 0.95, none below 0.05, which leaves exactly zero. Scaled
 /// by f, the information becomes H - (1 - f) x x^T / (v^T S v) with x = (S v, 0): what other
-/// directions know by way of v stays. `information` is that of the rows in the tangent of PlaneRow,
-/// under shared errors or not. The sigma of a direction is that of the scaled information; of one
-/// without constraint 1e6.
+/// directions know by way of v stays. `information`, which is scaled and gives S there, is that of
+/// the estimate in the tangent of PlaneRow, under shared errors or not. The sigma of a direction is
+/// that of the scaled information; of one without constraint 1e6.
 PALOC_EXPORT ObservedDirections observeDirections(std::span<const PlaneRow> rows,
                                                   const Mat6& information,
                                                   const DegeneracyNoise& noise);

@@ -43,26 +43,31 @@ struct NormalEquations {
   Vec6 gradient = Vec6::Zero();
 };
 
-/// Information and gradient of generalized least squares under correlated errors. The residuals are
-/// r = J delta + e + B beta, with e ~ N(0, D), D diagonal, and beta ~ N(0, S) the shared errors:
-/// one bias per patch (B: 1 for its points) and one of the range (B: n . ray). Then
+/// Information and gradient of weighted least squares, the rows taken as independent, in their
+/// order: information = J^T D^-1 J, gradient = J^T D^-1 r.
+PALOC_EXPORT NormalEquations leastSquares(std::span<const PlaneRow> rows);
+
+/// Information of the estimate of leastSquares() when its rows share errors that it does not know
+/// of. The residuals are r = J delta + e + B beta, with e ~ N(0, D), D diagonal, and beta ~ N(0, S)
+/// the shared errors: one bias per patch (B: 1 for its points), one of the range (B: n . ray). The
+/// estimate is then wrong by H^-1 G (e, beta) with H = J^T D^-1 J and G = J^T D^-1 B, so
 ///
-///   information = J^T (D + B S B^T)^-1 J = J^T D^-1 J - Y^T M^-1 Y,
-///   Y = B^T D^-1 J,   M = S^-1 + B^T D^-1 B                      (Woodbury).
+///   covariance  = H^-1 + H^-1 G S G^T H^-1,
+///   information = H (H + G S G^T)^-1 H,
+///   G S G^T = sum_k S_k Y_k Y_k^T + range_bias^2 y y^T,
+///   Y_k = sum J/D over patch k,   y = sum (n . ray) J/D.
 ///
-/// A point lies on one patch at most, so the patches' part of M is diagonal,
-/// a_k = 1/S_k + sum 1/D, and the range's row g_k = sum (n . ray)/D fills the last row and column:
-/// an arrow. Eliminating the patches first (Schur complement), with Y_k = sum J/D over the patch,
+/// Generalized least squares, with the information J^T (D + B S B^T)^-1 J, would be the better
+/// estimate if D, B and S were right. They are rough (where one patch ends and another begins,
+/// whose thickness is one error), and it then follows the few points that say most about
+/// differences between patches: over a walk through a map its errors came out twice as large.
+/// Shared errors are considered, not estimated (the Schmidt or "consider" covariance: Jazwinski,
+/// "Stochastic Processes and Filtering Theory", 1970, section 8.4).
 ///
-///   information = J^T D^-1 J - sum_k Y_k Y_k^T / a_k - y y^T / s,
-///   y = sum (n . ray) J/D - sum_k g_k Y_k / a_k,
-///   s = 1/range_bias^2 + sum (n . ray)^2/D - sum_k g_k^2 / a_k,
-///
-/// and the gradient in the same way with r in place of one J. A bias of zero leaves its term out.
-/// Every row's patch must have its variance, or be -1. Cost: some 60 operations a row; summed in
-/// the order of the rows.
-PALOC_EXPORT NormalEquations sharedErrorEquations(std::span<const PlaneRow> rows,
-                                                  const SharedErrors& shared);
+/// Symmetric, positive semidefinite; a direction that no row fixes stays without information.
+/// Every row's patch must have its variance, or be -1.
+PALOC_EXPORT Mat6 informationUnderSharedErrors(std::span<const PlaneRow> rows,
+                                               const SharedErrors& shared);
 
 /// Gives each row the patch that it lies on and returns the variance of each patch's bias (m2):
 /// that of the survey, plane_bias^2, and a quarter of the mean square thickness of its surface,
