@@ -83,6 +83,7 @@ std::map<std::string, Words> soundCalls(const test::TempDir& dir) {
       {"config describe", {"config", "describe"}},
       {"map info", {"map", "info", dir / "demo/map.ply"}},
       {"map convert", {"map", "convert", dir / "demo/map.ply", dir / "map.pcd"}},
+      {"bench endurance", {"bench", "endurance", "--updates", "100"}},
       {"bench smoother", {"bench", "smoother", "--problem", dir / "resting.problem"}},
       {"bench degeneracy",
        {"bench", "degeneracy", "--scenes", "room", "--sensors", "vlp-16", "--poses", "1"}},

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <cmath>
+#include <iostream>
 #include <limits>
 
 #include "paloc/core/fixed_lag_smoother.h"
@@ -69,13 +71,23 @@ TEST(Consistency, AnImuOnlyWindowLeavesExactlyPositionAndYawOpen) {
   check("after marginalization");
 }
 
-// Mean normalised error squared of the newest pose, velocity and biases, per degree of freedom,
-// over `seeds` runs; `measure` adds the map's factors to node k.
+constexpr unsigned kSeeds = 200;
+
+/// Mean normalised error squared per degree of freedom of parts of the newest state.
+struct Nees {
+  double pose = 0, velocity = 0, biases = 0, all = 0;
+};
+
+double normalizedSquare(const Eigen::VectorXd& error, const Eigen::MatrixXd& covariance) {
+  return error.dot(covariance.ldlt().solve(error)) / static_cast<double>(error.size());
+}
+
+// Over kSeeds runs whose start and biases are drawn anew; `measure` adds the map's factors to node
+// k.
 template <class Measure>
-double nees(unsigned seeds, int nodes, Measure measure) {
-  double sum = 0;
-  int terms = 0;
-  for (unsigned seed = 1; seed <= seeds; ++seed) {
+Nees neesOfNewest(int nodes, Measure measure) {
+  Nees mean;
+  for (unsigned seed = 1; seed <= kSeeds; ++seed) {
     SimulatedChain chain(seed);
     SmootherSettings settings;
     settings.lag_s = 2;
@@ -89,36 +101,54 @@ double nees(unsigned seeds, int nodes, Measure measure) {
       smoother.add(std::move(node));
     }
     const NodeEstimate newest = smoother.newest();
-    const Eigen::Matrix<double, 15, 1> error = boxminus(newest.state, chain.truth).head<15>();
-    const Eigen::Matrix<double, 15, 15> covariance = newest.covariance.topLeftCorner<15, 15>();
-    sum += error.dot(covariance.ldlt().solve(error));
-    terms += 15;
+    const StateVector error = boxminus(newest.state, chain.truth);
+    const auto part = [&](int offset, int size) {
+      return normalizedSquare(error.segment(offset, size),
+                              newest.covariance.block(offset, offset, size, size)) /
+             kSeeds;
+    };
+    mean.pose += part(tangent::kPosition, 6);
+    mean.velocity += part(tangent::kVelocity, 3);
+    mean.biases += part(tangent::kBiasAcc, 6);
+    mean.all += part(tangent::kPosition, 15);
   }
-  return sum / terms;
+  return mean;
 }
 
-// 99 % bounds of chi squared with 1500 degrees of freedom, divided by them. (400 seeds give 0.979,
-// 1.007 and 0.978, where 95 % lie between 0.964 and 1.036.)
-constexpr double kLow = 0.908, kHigh = 1.097;
+// 95 % bounds of chi squared with `dof` degrees of freedom over them (Wilson and Hilferty 1931).
+void expectWithin95Percent(const char* name, double nees, int dof_of_one) {
+  const double dof = kSeeds * dof_of_one;
+  const auto bound = [&](double z) {
+    return std::pow(1 - 2 / (9 * dof) + z * std::sqrt(2 / (9 * dof)), 3);
+  };
+  const double low = bound(-1.96), high = bound(1.96);
+  std::cout << "  " << name << ": NEES/dof " << nees << ", 95 % bounds " << low << " to " << high
+            << "\n";
+  EXPECT_GT(nees, low) << name;
+  EXPECT_LT(nees, high) << name;
+}
+
+void expectConsistent(const Nees& nees) {
+  expectWithin95Percent("pose", nees.pose, 6);
+  expectWithin95Percent("velocity", nees.velocity, 3);
+  expectWithin95Percent("biases", nees.biases, 6);
+  expectWithin95Percent("pose, velocity and biases", nees.all, 15);
+}
 
 TEST(Consistency, NeesWithMapFactors) {
-  const double value = nees(100, 150, [](int, SimulatedChain& chain, ChainNode& node) {
+  expectConsistent(neesOfNewest(150, [](int, SimulatedChain& chain, ChainNode& node) {
     node.node_factors.push_back(chain.map(chain.truth));
-  });
-  EXPECT_GT(value, kLow);
-  EXPECT_LT(value, kHigh);
+  }));
 }
 
 TEST(Consistency, NeesThroughTwentySecondsWithoutAMap) {
-  const double value = nees(100, 250, [](int k, SimulatedChain& chain, ChainNode& node) {
+  expectConsistent(neesOfNewest(250, [](int k, SimulatedChain& chain, ChainNode& node) {
     if (k < 50) node.node_factors.push_back(chain.map(chain.truth));
-  });
-  EXPECT_GT(value, kLow);
-  EXPECT_LT(value, kHigh);
+  }));
 }
 
 TEST(Consistency, NeesWithOneDirectionMissing) {
-  const double value = nees(100, 150, [](int, SimulatedChain& chain, ChainNode& node) {
+  expectConsistent(neesOfNewest(150, [](int, SimulatedChain& chain, ChainNode& node) {
     const Vec3 open = Vec3(1, 1, 0).normalized();  // a corridor at 45 degrees
     Mat6 information = Mat6::Zero();
     information.topLeftCorner<3, 3>() =
@@ -127,9 +157,7 @@ TEST(Consistency, NeesWithOneDirectionMissing) {
     Vec6 error;
     error << chain.random.vector(0.02) + 5 * open, chain.random.vector(0.004);
     node.node_factors.push_back(MapFactor(boxplus(chain.truth.T_map_body, error), information));
-  });
-  EXPECT_GT(value, kLow);
-  EXPECT_LT(value, kHigh);
+  }));
 }
 
 }  // namespace

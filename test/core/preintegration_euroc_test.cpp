@@ -1,53 +1,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 #include <vector>
 
+#include "euroc_data.h"
 #include "paloc/core/imu_factor.h"
 #include "paloc/core/imu_sample.h"
 #include "shared_data.h"
 
 namespace paloc {
 namespace {
-
-struct Truth {
-  TimeNs t_ns;
-  State state;
-};
-
-std::vector<ImuSample> readImu(const std::filesystem::path& file) {
-  std::vector<ImuSample> samples;
-  std::ifstream in(file);
-  ImuSample s;
-  Vec3 &w = s.omega_body, &a = s.acc_body;
-  while (in >> s.t_ns >> w.x() >> w.y() >> w.z() >> a.x() >> a.y() >> a.z()) samples.push_back(s);
-  return samples;
-}
-
-std::vector<Truth> readTruth(const std::filesystem::path& file) {
-  std::vector<Truth> rows;
-  std::ifstream in(file);
-  std::string line;
-  while (std::getline(in, line)) {
-    if (line.empty() || line[0] == '#') continue;
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::istringstream fields(line);
-    Truth row;
-    double v[16];
-    fields >> row.t_ns;
-    for (double& value : v) fields >> value;
-    row.state.T_map_body.position = Vec3(v[0], v[1], v[2]);
-    row.state.T_map_body.rotation =
-        Eigen::Quaterniond(v[3], v[4], v[5], v[6]).normalized().toRotationMatrix();
-    row.state.v_map = Vec3(v[7], v[8], v[9]);
-    row.state.bias_gyro = Vec3(v[10], v[11], v[12]);
-    row.state.bias_acc = Vec3(v[13], v[14], v[15]);
-    rows.push_back(row);
-  }
-  return rows;
-}
 
 ImuSample at(const std::vector<ImuSample>& samples, std::size_t after, TimeNs t_ns) {
   const ImuSample &a = samples[after - 1], &b = samples[after];
@@ -76,11 +38,11 @@ Preintegration integrate(const std::vector<ImuSample>& samples, const State& sta
 }
 
 // Median error of the position predicted from the true state, `rows_ahead` rows of truth (5 ms).
-double medianPositionError(const std::vector<ImuSample>& samples, const std::vector<Truth>& truth,
-                           std::size_t rows_ahead) {
+double medianPositionError(const std::vector<ImuSample>& samples,
+                           const std::vector<EurocTruth>& truth, std::size_t rows_ahead) {
   std::vector<double> errors;
   for (std::size_t k = 0; k + rows_ahead < truth.size(); k += 20) {
-    const Truth &from = truth[k], &to = truth[k + rows_ahead];
+    const EurocTruth &from = truth[k], &to = truth[k + rows_ahead];
     if (from.t_ns < samples.front().t_ns || to.t_ns >= samples.back().t_ns) continue;
     const ImuFactor factor(integrate(samples, from.state, from.t_ns, to.t_ns), 9.81);
     const Vec3 predicted = factor.predict(from.state).T_map_body.position;
@@ -93,8 +55,8 @@ double medianPositionError(const std::vector<ImuSample>& samples, const std::vec
 
 TEST(PreintegrationOnEuroc, PredictsFromTheTrueState) {
   const std::filesystem::path folder = sharedData() / "imu";
-  const std::vector<ImuSample> samples = readImu(folder / "euroc_mh05_imu0.txt");
-  const std::vector<Truth> truth = readTruth(folder / "euroc_mh05_groundtruth.csv");
+  const std::vector<ImuSample> samples = readEurocImu(folder / "euroc_mh05_imu0.txt");
+  const std::vector<EurocTruth> truth = readEurocTruth(folder / "euroc_mh05_groundtruth.csv");
   if (samples.empty() || truth.empty()) GTEST_SKIP() << "no EuRoC data in " << folder;
   const double short_error_m = medianPositionError(samples, truth, 20);
   const double long_error_m = medianPositionError(samples, truth, 100);

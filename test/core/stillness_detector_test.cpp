@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <random>
 #include <vector>
+
+#include "euroc_data.h"
+#include "shared_data.h"
 
 namespace paloc {
 namespace {
@@ -94,11 +97,8 @@ TEST(StillnessDetector, MeanForcePointsUpAtRest) {
 }
 
 TEST(StillnessDetector, OnARealHandheldImuOnlyTheFirstSevenSecondsAreRest) {
-  const char* folder = std::getenv("PALOC_SHARED_DATA");
-  const std::filesystem::path data =
-      folder ? folder : std::filesystem::path(PALOC_SOURCE_DIR) / "../shared/data";
-  std::ifstream file(data / "imu/avia_handheld_imu.txt");
-  if (!file) GTEST_SKIP() << "no real IMU data at " << data;
+  std::ifstream file(sharedData() / "imu/avia_handheld_imu.txt");
+  if (!file) GTEST_SKIP() << "no real IMU data at " << sharedData();
   StillnessDetector detector{StillnessSettings()};
   std::vector<double> rest_s;
   double t, start = -1, next = 0;
@@ -119,6 +119,53 @@ TEST(StillnessDetector, OnARealHandheldImuOnlyTheFirstSevenSecondsAreRest) {
   EXPECT_LT(rest_s.back(), 7.6);
   const double instants = (rest_s.back() - rest_s.front()) / 0.1;
   EXPECT_NEAR(static_cast<double>(rest_s.size()), instants + 1, 1.5) << "one interval, unbroken";
+}
+
+// A drone that is carried about before it flies; the truth says how fast it is. What is called rest
+// must be one. Of the instants that are still in truth the detector leaves out those with the
+// motors on, and the first half second of each rest.
+TEST(StillnessDetector, OnEurocNoRestIsSeenInFlight) {
+  const std::filesystem::path folder = sharedData() / "imu";
+  const std::vector<ImuSample> samples = readEurocImu(folder / "euroc_mh05_imu0.txt");
+  const std::vector<EurocTruth> truth = readEurocTruth(folder / "euroc_mh05_groundtruth.csv");
+  if (samples.empty() || truth.empty()) GTEST_SKIP() << "no EuRoC data in " << folder;
+  StillnessDetector detector{StillnessSettings()};
+  auto row = truth.begin();
+  TimeNs next_ns = samples.front().t_ns;
+  int judged = 0, at_rest = 0, still = 0, both = 0;
+  double fastest_mps = 0;
+  for (const ImuSample& sample : samples) {
+    detector.addImu(sample);
+    if (sample.t_ns < next_ns) continue;
+    next_ns += 100'000'000;
+    while (row != truth.end() && row->t_ns < sample.t_ns) ++row;
+    if (row == truth.begin() || row == truth.end()) {
+      detector.update(sample.t_ns, truth.front().state.bias_gyro);
+      continue;
+    }
+    const bool rest = detector.update(sample.t_ns, row->state.bias_gyro);
+    // Still in truth: no faster than 2 cm/s through the window, as well as the truth knows.
+    double speed_mps = 0;
+    for (auto r = row; r->t_ns > sample.t_ns - 500'000'000 && r != truth.begin(); --r) {
+      speed_mps = std::max(speed_mps, r->state.v_map.norm());
+    }
+    ++judged;
+    if (rest) {
+      ++at_rest;
+      fastest_mps = std::max(fastest_mps, speed_mps);
+    }
+    if (speed_mps < 0.02) {
+      ++still;
+      if (rest) ++both;
+    }
+  }
+  std::cout << "EuRoC MH05: " << judged << " instants judged, " << still << " still in truth, "
+            << at_rest << " called rest, " << both << " of them still; fastest speed at a rest "
+            << fastest_mps << " m/s\n";
+  ASSERT_GT(judged, 1000);
+  EXPECT_LT(fastest_mps, 0.02);
+  EXPECT_EQ(both, at_rest);
+  EXPECT_GT(at_rest, 20);
 }
 
 }  // namespace

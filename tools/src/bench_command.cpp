@@ -14,6 +14,7 @@ class BenchCommand : public Command {
  public:
   BenchCommand() {
     commands_.push_back(makeBenchSmootherCommand());
+    commands_.push_back(makeBenchEnduranceCommand());
     commands_.push_back(makeBenchRegistrationCommand());
     commands_.push_back(makeBenchDegeneracyCommand());
   }

@@ -1,7 +1,5 @@
 #include "paloc/tools/bench_smoother.h"
 
-#include <time.h>
-
 #include <algorithm>
 
 #include "paloc/core/batch_smoother.h"
@@ -9,28 +7,10 @@
 #include "paloc/tools/peak_memory.h"
 #include "paloc/tools/quantile.h"
 #include "problem_nodes.h"
+#include "work_stopwatch.h"
 
 namespace paloc {
 namespace {
-
-TimeNs now(clockid_t clock) {
-  timespec t{};
-  clock_gettime(clock, &t);
-  return kNsPerSecond * static_cast<TimeNs>(t.tv_sec) + static_cast<TimeNs>(t.tv_nsec);
-}
-
-/// Time passed since it was made, by the wall and on the processor.
-class Stopwatch {
- public:
-  double wall_ms() const { return 1e-6 * static_cast<double>(now(CLOCK_MONOTONIC) - wall_begin_); }
-  double cpu_ms() const {
-    return 1e-6 * static_cast<double>(now(CLOCK_THREAD_CPUTIME_ID) - cpu_begin_);
-  }
-
- private:
-  TimeNs wall_begin_ = now(CLOCK_MONOTONIC);
-  TimeNs cpu_begin_ = now(CLOCK_THREAD_CPUTIME_ID);
-};
 
 TimeStatistics timeStatistics(const std::vector<double>& times_ms) {
   return {quantile(times_ms, 0.5), quantile(times_ms, 0.99), quantile(times_ms, 1)};
@@ -98,8 +78,11 @@ class OnlineRun {
 };
 
 void OnlineRun::step(std::size_t k) {
-  const Stopwatch watch;
-  ChainNode node = k == 0 ? firstProblemNode(problem_) : nextProblemNode(problem_, k, last_);
+  const WorkStopwatch watch;
+  const SmootherProblem::Node& source = problem_.nodes[k];
+  ChainNode node = k == 0
+                       ? firstProblemNode(source)
+                       : nextProblemNode(problem_.noise, problem_.nodes[k - 1], source, k, last_);
   const double wall_ms = watch.wall_ms(), cpu_ms = watch.cpu_ms();
   measureLinearization(node);
   previous_ = node;
@@ -109,7 +92,7 @@ void OnlineRun::step(std::size_t k) {
 }
 
 void OnlineRun::update(std::size_t k, ChainNode node, double made_wall_ms, double made_cpu_ms) {
-  const Stopwatch watch;
+  const WorkStopwatch watch;
   relinearized_ += static_cast<std::size_t>(smoother_.add(std::move(node)).relinearized);
   addLateFactors(k);
   const double added_ms = watch.cpu_ms();
@@ -127,7 +110,7 @@ void OnlineRun::update(std::size_t k, ChainNode node, double made_wall_ms, doubl
 // The smoother itself reads no clock: so the same work once more, apart.
 void OnlineRun::measureLinearization(const ChainNode& node) {
   if (smoother_.empty()) return;
-  const Stopwatch watch;
+  const WorkStopwatch watch;
   const ChainBlock block = linearize(&previous_, node);
   if (block.usable()) linearization_.push_back(watch.cpu_ms());
 }
@@ -168,7 +151,7 @@ void OnlineRun::report(BenchSmootherResult& result) const {
 void runBatch(const SmootherProblem& problem, OnlineRun& online, BenchSmootherResult& result) {
   std::vector<ChainNode> nodes = std::move(online.keptNodes());
   for (std::size_t k = 0; k < nodes.size(); ++k) nodes[k].state = online.states()[k];
-  const Stopwatch watch;
+  const WorkStopwatch watch;
   const BatchSummary summary = smoothBatch(nodes, SmootherSettings());
   result.batch_time_s = 1e-3 * watch.wall_ms();
   result.batch_iterations = summary.iterations;

@@ -12,9 +12,9 @@ constexpr double kGravityWalk_sqrthz = 1e-6;
 constexpr double kPriorSigmaVelocity_mps = 0.1, kPriorSigmaBiasAcc_mps2 = 0.1,
                  kPriorSigmaBiasGyro_radps = 0.01, kPriorSigmaGravity = 1e-4;
 
-Preintegration preintegrate(const SmootherProblem& problem, std::size_t k, const State& last) {
-  const SmootherProblem::Node &node = problem.nodes[k], &before = problem.nodes[k - 1];
-  Preintegration p(problem.noise, last.bias_acc, last.bias_gyro);
+Preintegration preintegrate(const ImuNoise& noise, const SmootherProblem::Node& before,
+                            const SmootherProblem::Node& node, const State& last) {
+  Preintegration p(noise, last.bias_acc, last.bias_gyro);
   // What came last before the interval holds until the first sample within it.
   const ImuSample* held = before.imu.empty() ? nullptr : &before.imu.back();
   TimeNs held_since_ns = before.t_ns;
@@ -40,16 +40,15 @@ Preintegration preintegrate(const SmootherProblem& problem, std::size_t k, const
   return p;
 }
 
-void addMapFactors(const SmootherProblem& problem, std::size_t k, ChainNode& node) {
-  for (const SmootherProblem::MapMeasurement& map : problem.nodes[k].map) {
+void addMapFactors(const SmootherProblem::Node& source, std::size_t k, ChainNode& node) {
+  for (const SmootherProblem::MapMeasurement& map : source.map) {
     if (map.node == k) node.node_factors.emplace_back(MapFactor(map.T_map_body, map.information));
   }
 }
 
 }  // namespace
 
-ChainNode firstProblemNode(const SmootherProblem& problem) {
-  const SmootherProblem::Node& first = problem.nodes.front();
+ChainNode firstProblemNode(const SmootherProblem::Node& first) {
   ChainNode node;
   node.t_ns = first.t_ns;
   node.state.T_map_body = first.map.empty() ? first.T_map_body_true : first.map[0].T_map_body;
@@ -59,18 +58,18 @@ ChainNode firstProblemNode(const SmootherProblem& problem) {
       Vec3::Constant(kPriorSigmaVelocity_mps), Vec3::Constant(kPriorSigmaBiasAcc_mps2),
       Vec3::Constant(kPriorSigmaBiasGyro_radps), Vec3::Constant(kPriorSigmaGravity);
   node.node_factors.emplace_back(PriorFactor::fromSigmas(node.state, sigma));
-  addMapFactors(problem, 0, node);
+  addMapFactors(first, 0, node);
   return node;
 }
 
-ChainNode nextProblemNode(const SmootherProblem& problem, std::size_t k, const State& last) {
-  const SmootherProblem::Node& source = problem.nodes[k];
-  const double dt_s = secondsBetween(problem.nodes[k - 1].t_ns, source.t_ns);
+ChainNode nextProblemNode(const ImuNoise& noise, const SmootherProblem::Node& before,
+                          const SmootherProblem::Node& source, std::size_t k, const State& last) {
+  const double dt_s = secondsBetween(before.t_ns, source.t_ns);
   ChainNode node;
   node.t_ns = source.t_ns;
   node.node_factors.reserve(2);
   node.edge_factors.reserve(4);
-  const Preintegration imu = preintegrate(problem, k, last);
+  const Preintegration imu = preintegrate(noise, before, source, last);
   if (imu.dt_s > 0) {
     const ImuFactor factor(imu, kGravity_mps2);
     node.state = factor.predict(last);
@@ -83,12 +82,12 @@ ChainNode nextProblemNode(const SmootherProblem& problem, std::size_t k, const S
     }
     node.edge_factors.emplace_back(VelocityFactor(dt_s, 0.5));
   }
-  node.edge_factors.emplace_back(BiasWalkFactor(problem.noise, dt_s));
+  node.edge_factors.emplace_back(BiasWalkFactor(noise, dt_s));
   node.edge_factors.emplace_back(ConstantGravityFactor(kGravityWalk_sqrthz, dt_s));
   for (const SmootherProblem::OdometryMeasurement& odometry : source.odometry) {
     node.edge_factors.emplace_back(LidarOdometryFactor(odometry.T_i_j, odometry.covariance));
   }
-  addMapFactors(problem, k, node);
+  addMapFactors(source, k, node);
   return node;
 }
 
