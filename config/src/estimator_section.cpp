@@ -27,10 +27,8 @@ std::vector<Setting> estimatorSettings() {
            "Width of the map factor's Huber kernel, in standard deviations.");
   s.number("odometry_robust_width", &S::odometry_robust_width, "", {0.1, 1e6},
            "Width of the odometry factor's Huber kernel, in standard deviations.");
-  s.number(
-      "map_correlation_time_s", &S::map_correlation_time_s, "s", {0.001, 1000},
-      "So long the same surfaces stay in view with the same errors of the map: scans within it "
-      "share one scan's information.");
+  s.number("map_correlation_distance_m", &S::map_correlation_distance_m, "m", {1e-6, 1e6},
+           "Way over which the errors that scans share (plane_bias_m, range_bias_m) fall to 1/e.");
   s.number("rematch_position_m", &S::rematch_position_m, "m", {0, 100},
            "Smoothing at the end associates a scan with the map anew if its pose moved further.");
   s.number("rematch_rotation_rad", &S::rematch_rotation_rad, "rad", {0, 4},

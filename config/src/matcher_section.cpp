@@ -7,10 +7,8 @@ using S = MatcherSettings;
 
 template <typename Rows>
 void addPointsAndDistances(Rows& s) {
-  s.number("scan_voxel_m", &S::scan_voxel_m, "m", {0.01, 10},
-           "Edge of the finest voxels that a scan is thinned with.");
   s.count("max_points", &S::max_points, {100, 1000000},
-          "Points of a scan kept: its voxels grow until no more are left.");
+          "Points of a scan kept at most, spread evenly over the surfaces.");
   s.number("max_distance_m", &S::max_distance_m, "m", {0.01, 10},
            "Largest distance of a point to its map point in the first two iterations.");
   s.number("fine_distance_m", &S::fine_distance_m, "m", {0.01, 10},

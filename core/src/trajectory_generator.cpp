@@ -38,6 +38,7 @@ TrajectoryGenerator::TrajectoryGenerator(const EstimatorSettings& settings,
     : settings_(settings),
       matcher_(std::move(matcher)),
       stillness_(settings.stillness),
+      correlation_(settings.map_correlation_distance_m),
       smoother_(settings.smoother),
       scans_(settings.rematch_memory_mb) {}
 
@@ -214,16 +215,10 @@ void TrajectoryGenerator::addEdgeFactors(const OdometryFrame& frame,
   row.has_odometry_factor = frame.continues;
 }
 
-// Consecutive scans see the same surfaces with the same errors of the map, so they are not
-// independent. The kernel's width refers to a scan on its own: a single bad one must not hide
-// behind the smaller share.
 void TrajectoryGenerator::addMapFactor(const MapMatch& match, double since_last_s,
-                                       ChainNode& node) const {
-  const double share = std::min(1.0, since_last_s / settings_.map_correlation_time_s);
-  const RobustKernel kernel{RobustKernel::Kind::kHuber,
-                            settings_.map_robust_width * std::sqrt(share)};
-  node.node_factors.push_back(
-      MapFactor(fromMrpt(match.T_map_body), match.information * share, kernel));
+                                       ChainNode& node) {
+  const double scans = correlation_.add(fromMrpt(match.T_map_body).position, since_last_s);
+  node.node_factors.push_back(mapFactorOf(match, scans, settings_.map_robust_width));
 }
 
 // ZV and NG hold at every node at rest, NM where the node before rested as well.
@@ -292,10 +287,12 @@ void TrajectoryGenerator::smoothAll(Result& result) {
   std::vector<ChainNode> nodes;
   nodes.reserve(history_.size());
   for (const HistoryNode& entry : history_) nodes.push_back(entry.node);
+  putMapFactors(nodes);
   BatchSummary batch = smoothBatch(nodes, settings_.smoother);
   for (int round = 0; round < settings_.max_rematch_rounds; ++round) {
     if (batch.status == BatchSummary::Status::kFailed) return;
     if (!associateAllAnew(batch, nodes, result.rematched)) break;
+    putMapFactors(nodes);
     batch = smoothBatch(nodes, settings_.smoother);
   }
   if (batch.status == BatchSummary::Status::kFailed) return;
@@ -307,8 +304,9 @@ void TrajectoryGenerator::smoothAll(Result& result) {
   result.covariances_with_next = std::move(batch.covariances_with_next);
 }
 
-// True if any node's map factor is a new one.
-bool TrajectoryGenerator::associateAllAnew(const BatchSummary& batch, std::vector<ChainNode>& nodes,
+// True if any association is a new one.
+bool TrajectoryGenerator::associateAllAnew(const BatchSummary& batch,
+                                           const std::vector<ChainNode>& nodes,
                                            RematchCounts& counts) {
   StageScope stage(timer_, "rematch");
   bool any = false;
@@ -321,14 +319,28 @@ bool TrajectoryGenerator::associateAllAnew(const BatchSummary& batch, std::vecto
       continue;
     }
     any = true;
+  }
+  return any;
+}
+
+// The map factors of all associations, by how many scans share their errors before and after.
+void TrajectoryGenerator::putMapFactors(std::vector<ChainNode>& nodes) const {
+  std::vector<Vec3> positions;
+  std::vector<bool> has_map_factor;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    positions.push_back(nodes[k].state.T_map_body.position);
+    has_map_factor.push_back(history_[k].association.match.accepted());
+  }
+  const std::vector<double> scans =
+      scansSharingErrors(positions, has_map_factor, settings_.map_correlation_distance_m);
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
     std::erase_if(nodes[k].node_factors, [](const NodeFactor& factor) {
       return std::holds_alternative<MapFactor>(factor);
     });
-    const double since_last_s =
-        k == 0 ? kFirstFrameInterval_s : secondsBetween(nodes[k - 1].t_ns, nodes[k].t_ns);
-    if (association.match.accepted()) addMapFactor(association.match, since_last_s, nodes[k]);
+    if (!has_map_factor[k]) continue;
+    nodes[k].node_factors.push_back(
+        mapFactorOf(history_[k].association.match, scans[k], settings_.map_robust_width));
   }
-  return any;
 }
 
 Result TrajectoryGenerator::finish(Smoothing smoothing) {

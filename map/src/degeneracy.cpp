@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "paloc/core/shared_errors.h"
+
 namespace paloc {
 namespace {
 
@@ -117,9 +119,8 @@ double factorOf(const MatchDirection& direction) {
 // The three directions of one kind, weakest first, with shares, probabilities and sigmas. They are
 // those of the rows alone: shared errors blur them, since a bias of the range turns the weakest
 // axis towards whatever the bias moves most.
-void observeKind(std::span<const PlaneRow> rows, const Mat6& information,
+void observeKind(std::span<const PlaneRow> rows, const Mat6& geometry, const Mat6& information,
                  const DegeneracyNoise& noise, int own, std::array<MatchDirection, 6>& directions) {
-  const Mat6 geometry = leastSquares(rows).information;
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(schurComplement(geometry, own));
   const Mat3 follow = followingMotion(rows, geometry, own, noise);
   const Mat3 schur = schurComplement(information, own);
@@ -166,23 +167,35 @@ void attenuateKind(int own, const std::array<MatchDirection, 6>& directions, Mat
   }
 }
 
+// Rounding may leave an eigenvalue a little below zero where information was taken away; and the
+// spread must not reach into what is not known.
+void cleanUp(ObservedDirections& observed) {
+  using Square = Eigen::Matrix<double, 6, 6>;
+  const Eigen::SelfAdjointEigenSolver<Square> solver(observed.information);
+  const Vec6 eigenvalues = solver.eigenvalues().cwiseMax(0.0);
+  const Square vectors = solver.eigenvectors();
+  const double smallest = 1e-9 * eigenvalues[5];
+  if (eigenvalues[0] > smallest) return;
+  observed.information = vectors * eigenvalues.asDiagonal() * vectors.transpose();
+  const Vec6 known = (eigenvalues.array() > smallest).cast<double>();
+  const Square projector = vectors * known.asDiagonal() * vectors.transpose();
+  observed.shared_spread = (projector * observed.shared_spread * projector).eval();
+}
+
 }  // namespace
 
-ObservedDirections observeDirections(std::span<const PlaneRow> rows, const Mat6& information,
+ObservedDirections observeDirections(std::span<const PlaneRow> rows, const Mat6& spread,
                                      const DegeneracyNoise& noise) {
   ObservedDirections observed;
-  observeKind(rows, information, noise, kTranslation, observed.directions);
-  observeKind(rows, information, noise, kRotation, observed.directions);
-  observed.information = information;
+  observed.information = leastSquares(rows).information;
+  observed.shared_spread = spread;
+  const Mat6 geometry = observed.information;
+  const Mat6 whole = informationUnderSharedErrors(geometry, spread);
+  observeKind(rows, geometry, whole, noise, kTranslation, observed.directions);
+  observeKind(rows, geometry, whole, noise, kRotation, observed.directions);
   attenuateKind(kTranslation, observed.directions, observed.information);
   attenuateKind(kRotation, observed.directions, observed.information);
-  // Rounding may leave an eigenvalue a little below zero where the information was taken away.
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(observed.information);
-  const Vec6 eigenvalues = solver.eigenvalues().cwiseMax(0.0);
-  if (solver.eigenvalues()[0] < 0) {
-    observed.information =
-        solver.eigenvectors() * eigenvalues.asDiagonal() * solver.eigenvectors().transpose();
-  }
+  cleanUp(observed);
   observed.information = (0.5 * (observed.information + observed.information.transpose())).eval();
   return observed;
 }

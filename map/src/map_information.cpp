@@ -1,6 +1,5 @@
 #include "paloc/map/map_information.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -10,6 +9,7 @@ namespace {
 
 constexpr double kSamePlaneCosine = 0.978;  // 12 degrees
 constexpr double kSamePlaneHeightM = 0.1;
+constexpr int kKnownRows = 5;              // of a patch, for its normal to be known
 constexpr double kSharedThickness = 0.25;  // of the square
 
 using Vec4f = float __attribute__((vector_size(16)));
@@ -18,20 +18,48 @@ using Vec4i = std::int32_t __attribute__((vector_size(16)));
 // What single precision may be wrong by, generously.
 constexpr float kSlackM = 1e-3F, kSlackCosine = 1e-4F;
 
+// Rows on one surface: their mean normal and centroid, which a single row's are far off of over a
+// long lever.
 struct Patch {
-  Vec3 normal, point;
+  Vec3 normal_sum = Vec3::Zero(), point_sum = Vec3::Zero();
   double thickness_sq = 0;
   int rows = 0;
+  Vec3 normal = Vec3::Zero(), point = Vec3::Zero();  // of the sums
+
+  void add(const PlaneRow& row) {
+    normal_sum += row.normal_body;
+    point_sum += row.point_body;
+    thickness_sq += row.surface_sigma * row.surface_sigma;
+    ++rows;
+    summarize();
+  }
+  void add(const Patch& other) {
+    normal_sum += other.normal_sum;
+    point_sum += other.point_sum;
+    thickness_sq += other.thickness_sq;
+    rows += other.rows;
+    summarize();
+  }
+
+ private:
+  void summarize() {
+    normal = normal_sum.normalized();
+    point = point_sum / rows;
+  }
 };
 
 bool liesOn(const PlaneRow& row, const Patch& patch, double patch_sq) {
-  const double cosine = patch.normal.dot(row.normal_body);
-  if (std::abs(cosine) < kSamePlaneCosine) return false;
+  if (patch.normal.dot(row.normal_body) < kSamePlaneCosine) return false;
   const Vec3 apart = row.point_body - patch.point;
-  // Measured along the mean of both normals: each alone is uncertain over a long lever.
-  const double sign = cosine < 0 ? -1 : 1;
-  const double height = apart.dot(patch.normal + sign * row.normal_body) / 2;
-  return std::abs(height) < kSamePlaneHeightM && apart.squaredNorm() < patch_sq;
+  return std::abs(apart.dot(patch.normal)) < kSamePlaneHeightM && apart.squaredNorm() < patch_sq;
+}
+
+// Whether two patches are parts of one surface, both of them known well enough to tell.
+bool areOne(const Patch& a, const Patch& b, double patch_sq) {
+  if (a.normal.dot(b.normal) < kSamePlaneCosine) return false;
+  const Vec3 apart = b.point - a.point;
+  return std::abs(apart.dot(a.normal + b.normal)) < 2 * kSamePlaneHeightM &&
+         apart.squaredNorm() < patch_sq;
 }
 
 // Four patches side by side, in single precision, to leave out at once what is far from fitting.
@@ -51,13 +79,10 @@ struct PatchGroup {
   Vec4i mayFit(const Eigen::Vector3f& n, const Eigen::Vector3f& p) const {
     const Vec4f cosine = nx * n.x() + ny * n.y() + nz * n.z();
     const Vec4f ax = p.x() - px, ay = p.y() - py, az = p.z() - pz;
-    const Vec4f own = ax * n.x() + ay * n.y() + az * n.z();
-    const Vec4f other = ax * nx + ay * ny + az * nz;
-    const Vec4f twice_height = cosine < 0 ? other - own : other + own;
+    const Vec4f height = ax * nx + ay * ny + az * nz;
     constexpr float kLowCosine = static_cast<float>(kSamePlaneCosine) - kSlackCosine;
-    constexpr float kTwiceHigh = 2 * static_cast<float>(kSamePlaneHeightM) + kSlackM;
-    return (cosine * cosine > kLowCosine * kLowCosine) &
-           (twice_height * twice_height < kTwiceHigh * kTwiceHigh);
+    constexpr float kHigh = static_cast<float>(kSamePlaneHeightM) + kSlackM;
+    return (cosine > kLowCosine) & (height * height < kHigh * kHigh);
   }
 };
 
@@ -82,6 +107,27 @@ std::size_t firstPatch(const PlaneRow& row, const std::vector<Patch>& patches,
   return patches.size();
 }
 
+// A row far from the first one of its surface may have opened a patch of its own, before the mean
+// normal was known: such patches become one, the earlier of the two. Returns where each went; of
+// patches that went elsewhere `patches` keeps what they were.
+std::vector<int> mergePatches(std::vector<Patch>& patches, double patch_sq) {
+  std::vector<int> merged(patches.size());
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    std::size_t into = k;
+    if (patches[k].rows >= kKnownRows) {
+      for (std::size_t i = 0; i < k; ++i) {
+        if (merged[i] != static_cast<int>(i) || patches[i].rows < kKnownRows) continue;
+        if (!areOne(patches[i], patches[k], patch_sq)) continue;
+        patches[i].add(patches[k]);
+        into = i;
+        break;
+      }
+    }
+    merged[k] = static_cast<int>(into);
+  }
+  return merged;
+}
+
 }  // namespace
 
 NormalEquations leastSquares(std::span<const PlaneRow> rows) {
@@ -99,8 +145,7 @@ NormalEquations leastSquares(std::span<const PlaneRow> rows) {
   return equations;
 }
 
-Mat6 informationUnderSharedErrors(std::span<const PlaneRow> rows, const SharedErrors& shared) {
-  using Square = Eigen::Matrix<double, 6, 6>;
+Mat6 sharedSpread(std::span<const PlaneRow> rows, const SharedErrors& shared) {
   std::vector<Vec6> patch_sums(shared.patch_variances.size(), Vec6::Zero());  // Y_k
   Vec6 range_sum = Vec6::Zero();                                              // y
   for (const PlaneRow& row : rows) {
@@ -110,16 +155,11 @@ Mat6 informationUnderSharedErrors(std::span<const PlaneRow> rows, const SharedEr
       patch_sums[static_cast<std::size_t>(row.patch)] += weighted;
     }
   }
-  const Square independent = leastSquares(rows).information;
-  Square spread =
-      independent + (shared.range_bias_m * shared.range_bias_m) * range_sum * range_sum.transpose();
+  Mat6 spread = (shared.range_bias_m * shared.range_bias_m) * range_sum * range_sum.transpose();
   for (std::size_t k = 0; k < patch_sums.size(); ++k) {
     spread += shared.patch_variances[k] * patch_sums[k] * patch_sums[k].transpose();
   }
-  // What no row fixes is zero in both; the ridge only keeps the solve from dividing zero by zero.
-  spread += 1e-12 * spread.diagonal().maxCoeff() * Square::Identity();
-  const Square information = independent * spread.ldlt().solve(independent);
-  return 0.5 * (information + information.transpose());
+  return spread;
 }
 
 std::vector<double> assignPatches(std::span<PlaneRow> rows, double patch_m, double plane_bias_m) {
@@ -129,14 +169,15 @@ std::vector<double> assignPatches(std::span<PlaneRow> rows, double patch_m, doub
   for (PlaneRow& row : rows) {
     const std::size_t index = firstPatch(row, patches, groups, patch_sq);
     if (index == patches.size()) {
-      patches.push_back({row.normal_body, row.point_body});
+      patches.emplace_back();
       if (index % 4 == 0) groups.emplace_back();
-      groups.back().set(index % 4, patches.back());
     }
     row.patch = static_cast<int>(index);
-    patches[index].thickness_sq += row.surface_sigma * row.surface_sigma;
-    ++patches[index].rows;
+    patches[index].add(row);
+    groups[index / 4].set(index % 4, patches[index]);
   }
+  const std::vector<int> merged = mergePatches(patches, patch_sq);
+  for (PlaneRow& row : rows) row.patch = merged[static_cast<std::size_t>(row.patch)];
   std::vector<double> variances(patches.size());
   for (std::size_t k = 0; k < patches.size(); ++k) {
     variances[k] =

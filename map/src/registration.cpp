@@ -29,6 +29,7 @@ constexpr std::size_t kCoarsePoints = 600, kScaleSample = 600, kGlimpse = 500;
 constexpr int kMinRows = 12;
 constexpr int kRestlessIterations =
     6;  // from then on a point has to move further and further to be
+constexpr double kRestlessStartM = 1e-3;
 constexpr double kRestlessGrowth =
     1.5;  // matched anew, so that matches that flip back and forth settle
 
@@ -109,6 +110,11 @@ void Registration::search(Correspondence& match, const Vec3& position, const Poi
   match.planar = true;
   match.map_point = toVec(map_.point(nearest.index));
   match.height = match.normal.dot(match.map_point) + static_cast<double>(plane.offset_m);
+  // Towards the sensor: rows of one surface then have one sign, and so has the error they share.
+  if (across > 0) {
+    match.normal = -match.normal;
+    match.height = -match.height;
+  }
   const auto thickness = static_cast<double>(plane.thickness_m);
   // The point of the scan lies anywhere in the thickness of the surface, the fit has its own error.
   const double roughness = std::max(thickness, settings_.map_noise_m);
@@ -131,8 +137,10 @@ void Registration::measure(Correspondence& match, std::size_t point, const Vec3&
 
 // Seeks the planes of every stride-th point anew, where it moved, and measures their residuals.
 void Registration::associate(const Pose& pose, double gate, int iteration, std::size_t stride) {
-  const double research = settings_.research_distance_m *
-                          std::pow(kRestlessGrowth, std::max(iteration - kRestlessIterations, 0));
+  const int restless = std::max(iteration - kRestlessIterations, 0);
+  const double least = restless > 0 ? kRestlessStartM : 0;
+  const double research =
+      std::max(settings_.research_distance_m, least) * std::pow(kRestlessGrowth, restless);
   const double research_sq = research * research;
   const Point3f sensor = toPoint(pose * sensor_body_);
   const auto reach = static_cast<float>(gate);
@@ -230,11 +238,10 @@ void Registration::moveRows(const Vec6& step) {
   }
 }
 
-Mat6 Registration::informationOfRows(bool shared) {
-  if (!shared) return leastSquares(rows_).information;
+Mat6 Registration::spreadOfRows() {
   const SharedErrors errors{assignPatches(rows_, settings_.plane_patch_m, settings_.plane_bias_m),
                             settings_.range_bias_m};
-  return informationUnderSharedErrors(rows_, errors);
+  return sharedSpread(rows_, errors);
 }
 
 // The rows of every `step`-th match, without their robust weights.
@@ -256,7 +263,7 @@ std::vector<PlaneRow> Registration::unweightedRows(const Pose& pose, double scal
 ObservedDirections Registration::glimpse(const Pose& pose, double scale) const {
   const auto look = [&](std::size_t step) {
     const std::vector<PlaneRow> rows = unweightedRows(pose, scale, step);
-    return observeDirections(rows, leastSquares(rows).information, noise());
+    return observeDirections(rows, Mat6::Zero(), noise());
   };
   const std::size_t step = std::max<std::size_t>(matched_.size() / kGlimpse, 1);
   const ObservedDirections observed = look(step);
@@ -332,9 +339,9 @@ Alignment Registration::align(const Pose& start, const AlignSchedule& schedule) 
     associate(pose, schedule.gate_m, alignment.iterations, 1);
     fillRows(pose, scale);
   }
-  {
+  if (schedule.shared_errors) {
     const AddTime time(alignment.timing.information_s);
-    alignment.information_body = informationOfRows(schedule.shared_errors);
+    alignment.spread_body = spreadOfRows();
   }
   summarize(scale, alignment);
   return alignment;

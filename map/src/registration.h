@@ -37,7 +37,7 @@ struct Alignment {
   int matched = 0;  ///< points with a plane
   int inliers = 0;  ///< matched points within three robust standard deviations
   double residual_rms_m = 0, residual_median_m = 0;
-  Mat6 information_body = Mat6::Zero();  ///< tangent of PlaneRow, before weak directions are scaled
+  Mat6 spread_body = Mat6::Zero();  ///< of the errors that points share, tangent of PlaneRow
 };
 
 /// Point-to-plane Gauss-Newton on SE(3) of one thinned scan against the map, in the map's local
@@ -89,7 +89,7 @@ class Registration {
   NormalEquations plainEquations(const Pose& pose, double scale);
   void fillRows(const Pose& pose, double scale);
   void moveRows(const Vec6& step);
-  Mat6 informationOfRows(bool shared);
+  Mat6 spreadOfRows();
   PlaneRow rowOf(std::size_t point, const Mat3& R_body_local, double scale) const;
   std::vector<PlaneRow> unweightedRows(const Pose& pose, double scale, std::size_t step) const;
   ObservedDirections glimpse(const Pose& pose, double scale) const;

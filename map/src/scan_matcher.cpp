@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "paloc/core/mrpt_pose.h"
-#include "paloc/map/voxel_filter.h"
+#include "paloc/map/scan_thinning.h"
 #include "registration.h"
 #include "rough_start.h"
 
@@ -74,8 +74,8 @@ class ScanMatcher::Work {
     }
     const auto start = std::chrono::steady_clock::now();
     const std::vector<std::uint32_t> kept =
-        filter_.selectAtMost(scan.points_body, settings_.scan_voxel_m,
-                             static_cast<std::size_t>(std::max(settings_.max_points, 1)));
+        thinning_.select(scan.points_body, scan.sensor_position_body,
+                         static_cast<std::size_t>(std::max(settings_.max_points, 1)));
     std::vector<Point3f> points(kept.size());
     for (std::size_t i = 0; i < kept.size(); ++i) points[i] = scan.points_body[kept[i]];
     timing_.filter_s = secondsSince(start);
@@ -107,10 +107,11 @@ class ScanMatcher::Work {
     answer.iterations = alignment.iterations;
     answer.refusal = gate(alignment, answer);
     if (!registration_.rows().empty()) {
-      const ObservedDirections observed = observeDirections(
-          registration_.rows(), alignment.information_body, registration_.noise());
+      const ObservedDirections observed =
+          observeDirections(registration_.rows(), alignment.spread_body, registration_.noise());
       answer.directions = observed.directions;
       answer.information = informationInMap(observed.information, local.rotation);
+      answer.shared_spread = informationInMap(observed.shared_spread, local.rotation);
     }
     timing_.information_s += secondsSince(start);
   }
@@ -138,7 +139,7 @@ class ScanMatcher::Work {
   MatcherSettings settings_;
   tbb::task_arena arena_;
   Registration registration_;
-  VoxelFilter filter_;
+  ScanThinning thinning_;
   Timing timing_;
 };
 

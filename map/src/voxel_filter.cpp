@@ -9,30 +9,9 @@
 namespace paloc {
 namespace {
 
-// However large, voxels that meet at the origin part the points about it into eight.
-constexpr std::size_t kOctants = 8;
 constexpr std::size_t kFewestSlots = 1 << 12;
 constexpr std::size_t kSlotsACell = 4;  // at least: most searches then end at the first slot
 constexpr std::uint32_t kFree = std::numeric_limits<std::uint32_t>::max();
-// So many times the points wanted are enough to choose from.
-constexpr std::size_t kEnoughChoice = 8;
-
-// One point of each run of `run` points, each time another one of it: a fixed step would meet the
-// same lasers of a scanner again and again.
-std::vector<std::uint32_t> onePerRun(std::size_t points, std::size_t run) {
-  std::vector<std::uint32_t> some(points / run);
-  for (std::size_t k = 0; k < some.size(); ++k) {
-    some[k] = static_cast<std::uint32_t>(k * run + (hashKey(k + 1) >> 32) % run);
-  }
-  return some;
-}
-
-std::vector<Point3f> pointsAt(std::span<const Point3f> points,
-                              std::span<const std::uint32_t> indices) {
-  std::vector<Point3f> chosen(indices.size());
-  for (std::size_t i = 0; i < indices.size(); ++i) chosen[i] = points[indices[i]];
-  return chosen;
-}
 
 }  // namespace
 
@@ -98,37 +77,6 @@ std::vector<std::uint32_t> VoxelFilter::select(std::span<const Point3f> points, 
   }
   std::vector<std::uint32_t> kept(cells_.size());
   for (std::size_t c = 0; c < cells_.size(); ++c) kept[c] = cells_[c].best;
-  return kept;
-}
-
-std::vector<std::uint32_t> VoxelFilter::selectAtMost(std::span<const Point3f> points,
-                                                     double finest_voxel_m,
-                                                     std::size_t max_points) {
-  const std::size_t run = points.size() / (kEnoughChoice * max_points);
-  if (run > 1) {
-    const std::vector<std::uint32_t> some = onePerRun(points.size(), run);
-    std::vector<std::uint32_t> kept =
-        selectAtMost(pointsAt(points, some), finest_voxel_m, max_points);
-    for (std::uint32_t& index : kept) index = some[index];
-    return kept;
-  }
-  const std::vector<std::uint32_t> fine = select(points, finest_voxel_m);
-  if (fine.size() <= max_points) return fine;
-  const std::vector<Point3f> thinned = pointsAt(points, fine);
-
-  // On surfaces the number of voxels falls with the square of their edge, a little less where
-  // points are sparse: each try starts from the count of the one before, and always grows.
-  double voxel = finest_voxel_m;
-  std::size_t count = fine.size();
-  std::vector<std::uint32_t> kept;
-  do {
-    const double ratio = static_cast<double>(count) / static_cast<double>(max_points);
-    voxel *= std::max(1.02, std::sqrt(ratio) * 1.01);
-    kept = select(thinned, voxel);
-    count = kept.size();
-  } while (count > max_points && count > kOctants);
-  if (count > max_points) kept.resize(max_points);
-  for (std::uint32_t& index : kept) index = fine[index];
   return kept;
 }
 

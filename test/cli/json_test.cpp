@@ -4,7 +4,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "paloc/core/mrpt_pose.h"
 #include "paloc/tools/command.h"
+#include "paloc/tools/trajectory_csv.h"
 #include "run_program.h"
 #include "temp_dir.h"
 
@@ -67,6 +69,19 @@ void writeForeignRecordings(const test::TempDir& dir) {
   test::writeFile(dir / "times.txt", "0000000000.bin 1.0\n0000000001.bin 1.1\n");
 }
 
+/// The true trajectory as a result's trajectory_cov.csv.
+void writeCovariantTruth(const test::TempDir& dir) {
+  std::vector<TrajectoryPoint> points;
+  for (const StampedPose& pose : readTum(dir / "demo/truth.tum")) {
+    TrajectoryPoint point;
+    point.t_ns = pose.t_ns;
+    point.T_map_body = toMrpt(pose.pose);
+    point.covariance = Mat6::Identity();
+    points.push_back(point);
+  }
+  test::writeFile(dir / "trajectory_cov.csv", trajectoryCsv(points));
+}
+
 /// A sound call of each other sub-command that takes --json, on a recording in `dir`; without it.
 std::map<std::string, Words> soundCalls(const test::TempDir& dir) {
   const std::string log = dir / "demo/recording.rawlog";
@@ -80,6 +95,7 @@ std::map<std::string, Words> soundCalls(const test::TempDir& dir) {
         dir / "clouds.rawlog"}},
       {"import kitti", {"import", "kitti", dir / "drive", "-o", dir / "kitti.rawlog"}},
       {"eval traj", {"eval", "traj", truth, truth}},
+      {"eval covariance", {"eval", "covariance", truth, dir / "trajectory_cov.csv"}},
       {"config describe", {"config", "describe"}},
       {"map info", {"map", "info", dir / "demo/map.ply"}},
       {"map convert", {"map", "convert", dir / "demo/map.ply", dir / "map.pcd"}},
@@ -104,6 +120,7 @@ TEST(Json, IsOneObjectOnStandardOutputAndNothingElse) {
                                      "--duration", "2", "-o", dir / "demo", "--json"}));
   test::writeFile(dir / "resting.problem", restingProblem());
   writeForeignRecordings(dir);
+  writeCovariantTruth(dir);
 
   CLI::App app;
   const auto commands = allCommands();

@@ -105,7 +105,7 @@ TEST(ConfigCommand, DescribeAsJsonIsOneObjectAndNothingElse) {
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_EQ(run.err, "");
   const auto json = nlohmann::json::parse(run.out);
-  const auto& row = json.at("settings").at("matcher.scan_voxel_m");
+  const auto& row = json.at("settings").at("matcher.fine_distance_m");
   EXPECT_EQ(row.at("unit"), "m");
   EXPECT_EQ(row.at("type"), "double");
   EXPECT_LT(row.at("min"), row.at("default"));

@@ -168,8 +168,7 @@ TEST_F(ReplayFaults, CtrlCWritesWhatWasReadSoFar) {
   for (const char* threads : {"1", "2"}) {  // with two, the recording is read ahead
     test::ReplayCall call;
     // Slow enough for the signal to arrive in time: it is sent when the first scan has been read.
-    call.more = {
-        "-j", threads, "--set", "matcher.scan_voxel_m=0.02", "--set", "matcher.max_points=100000"};
+    call.more = {"-j", threads, "--set", "matcher.max_points=100000"};
     test::ProgramOptions options;
     options.interrupt_at = "note: LiDAR 'lidar'";
     const ReplayRun run = test::replayInto(dir_ / threads, call, options);

@@ -42,14 +42,14 @@ TEST(Config, ReadsEveryType) {
       "  imu_label: \"say \\\"imu\\\"\"\n"
       "  deskew: false\n"
       "matcher:\n"
-      "  scan_voxel_m: 1e-1\n"
+      "  fine_distance_m: 1e-1\n"
       "  max_distance_m: 2\n"
       "  max_points: 1234\n",
       "t");
   EXPECT_EQ(config.frontend.lidar_label, "OS1 front");
   EXPECT_EQ(config.frontend.imu_label, "say \"imu\"");
   EXPECT_FALSE(config.frontend.deskew);
-  EXPECT_EQ(config.matcher.scan_voxel_m, 0.1);
+  EXPECT_EQ(config.matcher.fine_distance_m, 0.1);
   EXPECT_EQ(config.matcher.max_distance_m, 2.0);
   EXPECT_EQ(config.matcher.max_points, 1234);
 }
@@ -59,45 +59,45 @@ TEST(Config, ErrorsNameFileLineKeyAndWhatIsWrong) {
     const char* text;
     const char* error;
   } cases[] = {
-      {"matcher:\n  scan_voxel_m: 1.5m\n",
-       "site.yaml:2: matcher.scan_voxel_m: expects a number, not '1.5m'"},
+      {"matcher:\n  fine_distance_m: 1.5m\n",
+       "site.yaml:2: matcher.fine_distance_m: expects a number, not '1.5m'"},
       {"matcher:\n  max_points: 1.5\n",
        "site.yaml:2: matcher.max_points: expects a whole number, not '1.5'"},
       {"matcher:\n  max_points: 99999999999\n",
        "site.yaml:2: matcher.max_points: expects a number of ordinary size, not '99999999999'"},
       {"frontend:\n  deskew: yes\n",
        "site.yaml:2: frontend.deskew: expects true or false, not 'yes'"},
-      {"matcher:\n  scan_voxel_m: .nan\n",
-       "site.yaml:2: matcher.scan_voxel_m: expects a number, not '.nan'"},
-      {"matcher:\n  scan_voxel_m: nan\n",
-       "site.yaml:2: matcher.scan_voxel_m: expects a finite number, not 'nan'"},
-      {"matcher:\n  scan_voxel_m: inf\n",
-       "site.yaml:2: matcher.scan_voxel_m: expects a finite number, not 'inf'"},
-      {"matcher:\n  scan_voxel_m: 0,5\n",
-       "site.yaml:2: matcher.scan_voxel_m: expects a number, not '0,5'"},
-      {"matcher:\n  scan_voxel_m: 1e999\n",
-       "site.yaml:2: matcher.scan_voxel_m: expects a number of ordinary size, not '1e999'"},
-      {"matcher:\n  scan_voxel_m: -1\n",
-       "site.yaml:2: matcher.scan_voxel_m: -1 is out of range: m, 0.01 to 10"},
-      {"matcher:\n  scan_voxel_m: \"0.2\"\n",
-       "site.yaml:2: matcher.scan_voxel_m: expects a double without quotes"},
-      {"matcher:\n  scan_voxel_m: !!float 0.2\n",
-       "site.yaml:2: matcher.scan_voxel_m: takes no tag, as in 'tag:yaml.org,2002:float'"},
-      {"matcher:\n  scan_voxel_m:\n", "site.yaml:2: matcher.scan_voxel_m: has no value"},
+      {"matcher:\n  fine_distance_m: .nan\n",
+       "site.yaml:2: matcher.fine_distance_m: expects a number, not '.nan'"},
+      {"matcher:\n  fine_distance_m: nan\n",
+       "site.yaml:2: matcher.fine_distance_m: expects a finite number, not 'nan'"},
+      {"matcher:\n  fine_distance_m: inf\n",
+       "site.yaml:2: matcher.fine_distance_m: expects a finite number, not 'inf'"},
+      {"matcher:\n  fine_distance_m: 0,5\n",
+       "site.yaml:2: matcher.fine_distance_m: expects a number, not '0,5'"},
+      {"matcher:\n  fine_distance_m: 1e999\n",
+       "site.yaml:2: matcher.fine_distance_m: expects a number of ordinary size, not '1e999'"},
+      {"matcher:\n  fine_distance_m: -1\n",
+       "site.yaml:2: matcher.fine_distance_m: -1 is out of range: m, 0.01 to 10"},
+      {"matcher:\n  fine_distance_m: \"0.2\"\n",
+       "site.yaml:2: matcher.fine_distance_m: expects a double without quotes"},
+      {"matcher:\n  fine_distance_m: !!float 0.2\n",
+       "site.yaml:2: matcher.fine_distance_m: takes no tag, as in 'tag:yaml.org,2002:float'"},
+      {"matcher:\n  fine_distance_m:\n", "site.yaml:2: matcher.fine_distance_m: has no value"},
       {"frontend:\n  lidar_label: ~\n", "site.yaml:2: frontend.lidar_label: has no value"},
-      {"matcher:\n  scan_voxel_m: [0.2]\n",
-       "site.yaml:2: matcher.scan_voxel_m: expects one value, not a list or a map"},
+      {"matcher:\n  fine_distance_m: [0.2]\n",
+       "site.yaml:2: matcher.fine_distance_m: expects one value, not a list or a map"},
       {"matcher: 3\n", "site.yaml:1: matcher: is a section: its keys go below it"},
-      {"\nmatcher:\n  scan_voxl_m: 0.2\n",
-       "site.yaml:3: matcher.scan_voxl_m: unknown key; did you mean 'matcher.scan_voxel_m'?"},
-      {"matchr:\n  scan_voxel_m: 0.2\n", "site.yaml:1: matchr: unknown key"},
-      {"map:\n  scan_voxel_m: 0.2\n",
-       "site.yaml:2: map.scan_voxel_m: unknown key; did you mean 'matcher.scan_voxel_m'?"},
+      {"\nmatcher:\n  fine_distnce_m: 0.2\n",
+       "site.yaml:3: matcher.fine_distnce_m: unknown key; did you mean 'matcher.fine_distance_m'?"},
+      {"matchr:\n  fine_distance_m: 0.2\n", "site.yaml:1: matchr: unknown key"},
+      {"map:\n  fine_distance_m: 0.2\n",
+       "site.yaml:2: map.fine_distance_m: unknown key; did you mean 'matcher.fine_distance_m'?"},
       {"matcher:\n  completely_different: 0.2\n",
        "site.yaml:2: matcher.completely_different: unknown key"},
-      {"matcher:\n  scan_voxel_m: 0.2\n  max_points: 500\n  scan_voxel_m: 0.3\n",
-       "site.yaml:4: matcher.scan_voxel_m: given twice, first in line 2"},
-      {"matcher:\n  max_points: 500\nmatcher:\n  scan_voxel_m: 0.3\n",
+      {"matcher:\n  fine_distance_m: 0.2\n  max_points: 500\n  fine_distance_m: 0.3\n",
+       "site.yaml:4: matcher.fine_distance_m: given twice, first in line 2"},
+      {"matcher:\n  max_points: 500\nmatcher:\n  fine_distance_m: 0.3\n",
        "site.yaml:3: matcher: given twice, first in line 1"},
       {"- 1\n", "site.yaml:1: expects 'key: value' lines"},
       {"frontend:\n  max_range_m: 50\n  min_range_m: 60\n",
@@ -110,11 +110,11 @@ TEST(Config, ErrorsNameFileLineKeyAndWhatIsWrong) {
 
 TEST(Config, BrokenYamlIsAnErrorWithItsLine) {
   for (const char* text :
-       {"matcher: {scan_voxel_m: 0.2\n", "matcher: [1, 2\n", "a: b: c\n",
-        "matcher:\n\tscan_voxel_m: 1\n", "a: \"x\n", "--- 1\n--- 2\n", "a: *nowhere\n"}) {
+       {"matcher: {fine_distance_m: 0.2\n", "matcher: [1, 2\n", "a: b: c\n",
+        "matcher:\n\tfine_distance_m: 1\n", "a: \"x\n", "--- 1\n--- 2\n", "a: *nowhere\n"}) {
     EXPECT_EQ(complaint(text).rfind("site.yaml:", 0), 0U) << text << complaint(text);
   }
-  EXPECT_NE(complaint("matcher: {scan_voxel_m: 0.2\n").find("is not YAML"), std::string::npos);
+  EXPECT_NE(complaint("matcher: {fine_distance_m: 0.2\n").find("is not YAML"), std::string::npos);
   EXPECT_NE(complaint(std::string("a\0b", 3)).find("is not a text file"), std::string::npos);
   EXPECT_NE(complaint(std::string(5000, '[')).find("site.yaml"), std::string::npos);
 }
@@ -180,29 +180,29 @@ TEST(Config, OverlayKeepsWhatTheFileLeavesOutAndIsAllOrNothing) {
   const TempDir dir;
   Config config;
   config.matcher.max_points = 777;
-  writeFile(dir / "good.yaml", "matcher:\n  scan_voxel_m: 0.5\n");
+  writeFile(dir / "good.yaml", "matcher:\n  fine_distance_m: 0.5\n");
   overlayConfig(config, dir / "good.yaml");
   EXPECT_EQ(config.matcher.max_points, 777);
-  EXPECT_EQ(config.matcher.scan_voxel_m, 0.5);
-  writeFile(dir / "bad.yaml", "matcher:\n  scan_voxel_m: 0.7\n  max_points: none\n");
+  EXPECT_EQ(config.matcher.fine_distance_m, 0.5);
+  writeFile(dir / "bad.yaml", "matcher:\n  fine_distance_m: 0.7\n  max_points: none\n");
   EXPECT_THROW(overlayConfig(config, dir / "bad.yaml"), ConfigError);
-  EXPECT_EQ(config.matcher.scan_voxel_m, 0.5);
+  EXPECT_EQ(config.matcher.fine_distance_m, 0.5);
 }
 
 TEST(Config, SetValueTakesOneAssignment) {
   Config config;
-  setValue(config, "matcher.scan_voxel_m=0.125");
+  setValue(config, "matcher.fine_distance_m=0.125");
   setValue(config, "frontend.lidar_label=a=b");
   setValue(config, "frontend.deskew=false");
-  EXPECT_EQ(config.matcher.scan_voxel_m, 0.125);
+  EXPECT_EQ(config.matcher.fine_distance_m, 0.125);
   EXPECT_EQ(config.frontend.lidar_label, "a=b");
   EXPECT_FALSE(config.frontend.deskew);
-  for (const char* bad : {"matcher.scan_voxel_m", "=1", "", "matcher.scan_voxel_m=", "matcher=1",
-                          "matcher.scan_voxel_m=1 ", "matcher.max_points=1e3",
-                          "matcher.scan_voxel_m=100", "matcher.max_points=--5"}) {
+  for (const char* bad : {"matcher.fine_distance_m", "=1", "", "matcher.fine_distance_m=",
+                          "matcher=1", "matcher.fine_distance_m=1 ", "matcher.max_points=1e3",
+                          "matcher.fine_distance_m=100", "matcher.max_points=--5"}) {
     EXPECT_THROW(setValue(config, bad), ConfigError) << bad;
   }
-  EXPECT_EQ(config.matcher.scan_voxel_m, 0.125);
+  EXPECT_EQ(config.matcher.fine_distance_m, 0.125);
 }
 
 TEST(Config, CheckFindsWhatAProgramFilledInWrongly) {

@@ -68,7 +68,6 @@ struct Simulation {
   Simulation() {
     motion.bias_acc = Vec3(0.03, -0.02, 0.05);
     motion.bias_gyro = Vec3(0.001, 0.002, -0.001);
-    settings.map_correlation_time_s = kFrame_s;  // the noise here is white
   }
 
   Result run() {

@@ -98,7 +98,7 @@ TEST(ScanMatcher, RefusalsSayWhy) {
   EXPECT_EQ(refusalOf({}, few, guess), MatchRefusal::kTooFewPoints);
   EXPECT_EQ(refusalOf({}, scan, moved(truth, 200, 0, 0, 0, 0, 0)), MatchRefusal::kOutsideMap);
   MatcherSettings strict;
-  strict.min_inliers = 3900;
+  strict.min_inliers = 3990;
   strict.max_points = 4000;
   EXPECT_EQ(refusalOf(strict, scan, guess), MatchRefusal::kTooFewInliers);
   strict = {};

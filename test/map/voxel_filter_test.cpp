@@ -4,7 +4,6 @@
 
 #include <map>
 #include <random>
-#include <set>
 #include <tuple>
 
 namespace paloc {
@@ -43,18 +42,6 @@ TEST(VoxelFilter, KeepsThePointNearestToEachCentroid) {
       EXPECT_LE((toVec(index) - centroid).norm(), (toVec(i) - centroid).norm() + 1e-9);
     }
   }
-}
-
-TEST(VoxelFilter, CapIsHeldAndNearlyFilled) {
-  const std::vector<Point3f> points = randomPoints(60000, 5);
-  VoxelFilter filter;
-  const std::vector<std::uint32_t> kept = filter.selectAtMost(points, 0.05, 3000);
-  EXPECT_LE(kept.size(), 3000U);
-  EXPECT_GT(kept.size(), 1500U);
-  EXPECT_EQ(std::set<std::uint32_t>(kept.begin(), kept.end()).size(), kept.size());
-  EXPECT_EQ(kept, filter.selectAtMost(points, 0.05, 3000));
-  EXPECT_EQ(filter.selectAtMost(points, 100.0, 3).size(), 3U);
-  EXPECT_EQ(filter.selectAtMost(points, 0.05, 1).size(), 1U);
 }
 
 TEST(VoxelFilter, FarPointsAndNoPointsAreHarmless) {

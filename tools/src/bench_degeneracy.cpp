@@ -7,7 +7,7 @@
 
 #include "paloc/core/mrpt_pose.h"
 #include "paloc/map/scan_matcher.h"
-#include "paloc/map/voxel_filter.h"
+#include "paloc/map/scan_thinning.h"
 #include "paloc/tools/synth_random.h"
 #include "paloc/tools/synth_recording.h"
 #include "paloc/tools/synth_scene.h"
@@ -100,8 +100,8 @@ LabelledDirections Place::labelsAt(const synth::SensorModel& sensor, const Pose&
   exact.range_noise_m = 0;
   const Scan scan = scanAt(exact, T_map_body, index);
   const std::vector<std::uint32_t> kept =
-      VoxelFilter().selectAtMost(scan.points_body, settings_.matcher.scan_voxel_m,
-                                 static_cast<std::size_t>(settings_.matcher.max_points));
+      ScanThinning().select(scan.points_body, scan.sensor_position_body,
+                            static_cast<std::size_t>(settings_.matcher.max_points));
   std::vector<ExactPoint> points;
   std::vector<Eigen::Vector3f> rays_map;
   for (const std::uint32_t i : kept) {

@@ -44,7 +44,8 @@ class ConfigCommand : public Command {
     dump_ = config->add_subcommand("dump", "Print all settings as YAML, checked");
     options_.registerOn(*dump_);
     dump_->footer(
-        "Example:\n  paloc config dump --config vlp-16 --set matcher.scan_voxel_m=0.2 > site.yaml");
+        "Example:\n  paloc config dump --config vlp-16 --set matcher.fine_distance_m=0.2 > "
+        "site.yaml");
 
     describe_ = config->add_subcommand("describe", "Print every key with default, range, meaning");
     describe_->add_flag("--json", json_, "Print one JSON object");

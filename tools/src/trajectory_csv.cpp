@@ -41,11 +41,7 @@ std::string trajectoryHeader() {
   std::string header =
       "t_s,x_m,y_m,z_m,qx,qy,qz,qw,vx_mps,vy_mps,vz_mps,bax_mps2,bay_mps2,baz_mps2,bgx_radps,"
       "bgy_radps,bgz_radps";
-  for (int row = 0; row < 6; ++row) {
-    for (int col = row; col < 6; ++col) {
-      header += std::string(",cov_") + kTangentNames[row] + '_' + kTangentNames[col];
-    }
-  }
+  for (const std::string& name : covarianceColumns()) header += ',' + name;
   header +=
       ",sigma_vx_mps,sigma_vy_mps,sigma_vz_mps,sigma_bax_mps2,sigma_bay_mps2,sigma_baz_mps2,"
       "sigma_bgx_radps,sigma_bgy_radps,sigma_bgz_radps,flag,direction_t1,direction_t2,direction_t3,"
@@ -54,6 +50,16 @@ std::string trajectoryHeader() {
 }
 
 }  // namespace
+
+std::vector<std::string> covarianceColumns() {
+  std::vector<std::string> names;
+  for (int row = 0; row < 6; ++row) {
+    for (int col = row; col < 6; ++col) {
+      names.push_back(std::string("cov_") + kTangentNames[row] + '_' + kTangentNames[col]);
+    }
+  }
+  return names;
+}
 
 std::string toString(DirectionClass cls) {
   switch (cls) {

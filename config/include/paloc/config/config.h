@@ -33,7 +33,7 @@ PALOC_EXPORT Config parseConfig(std::string_view text, const std::string& name);
 /// (a sensor, then a site). On an error `config` is left as it was.
 PALOC_EXPORT void overlayConfig(Config& config, const std::filesystem::path& file);
 
-/// Sets one value from "key=value" (`matcher.scan_voxel_m=0.2`), as the command line has it. A
+/// Sets one value from "key=value" (`matcher.fine_distance_m=0.2`), as the command line has it. A
 /// string needs no quotes. Throws ConfigError; then `config` is left as it was.
 PALOC_EXPORT void setValue(Config& config, std::string_view assignment);
 

@@ -15,7 +15,7 @@ using SettingValue = std::variant<bool, int, double, std::string>;
 
 /// One row of the table of settings: loading, dumping, checking and describing all go by it.
 struct Setting {
-  std::string key;                   ///< dotted: "matcher.scan_voxel_m"
+  std::string key;                   ///< dotted: "matcher.fine_distance_m"
   std::string unit;                  ///< "m"; empty where there is none
   double min = 0, max = 0;           ///< numbers: both ends are allowed
   std::vector<std::string> choices;  ///< strings: the only ones allowed, or empty for any

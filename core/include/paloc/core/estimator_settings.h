@@ -27,9 +27,9 @@ struct EstimatorSettings {
   double map_robust_width = 4.0;       ///< Huber's, of the map factor, in standard deviations
   double odometry_robust_width = 4.0;  ///< likewise of the odometry factor
 
-  /// For so long the same surfaces stay in view, with the same errors of the map: scans within this
-  /// time are one measurement together, and each gets its share of the information.
-  double map_correlation_time_s = 10.0;
+  /// Way over which the errors that scans share fall to 1/e. Surfaces stay in view for longer, but
+  /// this is as far as smoothing reaches: with it, NEES of whole trajectories is 1 (README).
+  double map_correlation_distance_m = 2.0;
 
   // Smoothing at the end associates scans with the map anew whose poses moved further than this,
   // and smooths again, so many times at most.

@@ -8,6 +8,7 @@
 
 #include "paloc/core/export.h"
 #include "paloc/core/scan.h"
+#include "paloc/core/shared_errors.h"
 
 namespace paloc {
 
@@ -45,9 +46,13 @@ PALOC_EXPORT std::string toString(MatchRefusal refusal);
 struct MapMatch {
   MatchRefusal refusal = MatchRefusal::kNotConverged;
   mrpt::poses::CPose3D T_map_body;
-  /// Information (6 x 6) of the pose: tangent [position in the map frame, rotation on the right],
-  /// 1/m2, 1/(m rad), 1/rad2. Rank-deficient where the map does not fix a direction.
+  /// Information (6 x 6) of the pose if no points shared errors: tangent [position in the map
+  /// frame, rotation on the right], 1/m2, 1/(m rad), 1/rad2. Rank-deficient where the map does not
+  /// fix a direction.
   Mat6 information = Mat6::Zero();
+  /// What the errors that points share add to the covariance of the gradient (shared_errors.h), in
+  /// the units of the information, and zero where that is.
+  Mat6 shared_spread = Mat6::Zero();
   std::array<MatchDirection, 6> directions;  ///< 0..2 position, 3..5 rotation
 
   int points = 0;                ///< points of the filtered scan that were tried
@@ -61,6 +66,12 @@ struct MapMatch {
   std::shared_ptr<const Scan> thinned;
 
   bool accepted() const { return refusal == MatchRefusal::kNone; }
+
+  /// Information of the pose under shared errors. Among `scans` scans that share them (1 or more),
+  /// each can be taken as independent of the others with this one (map_correlation.h).
+  Mat6 informationAmong(double scans) const {
+    return informationUnderSharedErrors(information, scans * shared_spread);
+  }
 };
 
 /// Port: a prior map that scans are registered to. Implemented in map/.

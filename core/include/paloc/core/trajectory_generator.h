@@ -9,6 +9,7 @@
 #include "paloc/core/fixed_lag_smoother.h"
 #include "paloc/core/imu_buffer.h"
 #include "paloc/core/map_association.h"
+#include "paloc/core/map_correlation.h"
 #include "paloc/core/map_matcher.h"
 #include "paloc/core/odometry_frame.h"
 #include "paloc/core/stage_timer.h"
@@ -65,14 +66,15 @@ class PALOC_EXPORT TrajectoryGenerator {
   MapMatch matchScan(const OdometryFrame& frame, const State& predicted, double dt_s);
   void addEdgeFactors(const OdometryFrame& frame, const std::optional<ImuFactor>& imu, double dt_s,
                       ChainNode& node, FrameDiagnostics& row) const;
-  void addMapFactor(const MapMatch& match, double since_last_s, ChainNode& node) const;
+  void addMapFactor(const MapMatch& match, double since_last_s, ChainNode& node);
+  void putMapFactors(std::vector<ChainNode>& nodes) const;
   void addStationaryFactors(TimeNs since_ns, bool rested_before, ChainNode& node) const;
   bool append(ChainNode node, FrameDiagnostics row);
   OdometryFrame sinceLastNode(const OdometryFrame& frame) const;
   void rememberOdometry(const Pose& T_odom_body);
   void collectLeft();
   void smoothAll(Result& result);
-  bool associateAllAnew(const BatchSummary& batch, std::vector<ChainNode>& nodes,
+  bool associateAllAnew(const BatchSummary& batch, const std::vector<ChainNode>& nodes,
                         RematchCounts& counts);
   void setFlags(std::vector<TrajectoryPoint>& points) const;
 
@@ -81,6 +83,7 @@ class PALOC_EXPORT TrajectoryGenerator {
   StageTimer* timer_ = nullptr;
   ImuBuffer imu_;
   StillnessDetector stillness_;
+  ScanCorrelation correlation_;
   FixedLagSmoother smoother_;
   KeptScans scans_;
   std::optional<Pose> T_map_body_initial_;

@@ -20,8 +20,9 @@ struct DegeneracyNoise {
 /// weak ones have been scaled down.
 struct ObservedDirections {
   std::array<MatchDirection, 6>
-      directions;                   ///< 0..2 translation, 3..5 rotation; weakest first in each
-  Mat6 information = Mat6::Zero();  ///< body tangent, symmetric, positive semidefinite
+      directions;                     ///< 0..2 translation, 3..5 rotation; weakest first in each
+  Mat6 information = Mat6::Zero();    ///< body tangent, symmetric, positive semidefinite
+  Mat6 shared_spread = Mat6::Zero();  ///< what shared errors add (shared_errors.h); likewise
 };
 
 /// Classes the directions of a pose (design, 4.6). They are the eigenvectors of the Schur
@@ -43,11 +44,10 @@ struct ObservedDirections {
 /// points may be wrong together) scales the information along the
 /// direction, and classes it: full above 0.95, none below 0.05, which leaves exactly zero. Scaled
 /// by f, the information becomes H - (1 - f) x x^T / (v^T S v) with x = (S v, 0): what other
-/// directions know by way of v stays. `information`, which is scaled and gives S there, is that of
-/// the estimate in the tangent of PlaneRow, under shared errors or not. The sigma of a direction is
-/// that of the scaled information; of one without constraint 1e6.
+/// directions know by way of v stays. `spread` is that of the
+/// errors that points share, in the tangent of PlaneRow. The sigma of a direction is that of the
+/// scaled information under shared errors; of one without constraint 1e6.
 PALOC_EXPORT ObservedDirections observeDirections(std::span<const PlaneRow> rows,
-                                                  const Mat6& information,
-                                                  const DegeneracyNoise& noise);
+                                                  const Mat6& spread, const DegeneracyNoise& noise);
 
 }  // namespace paloc

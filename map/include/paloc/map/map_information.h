@@ -47,27 +47,14 @@ struct NormalEquations {
 /// order: information = J^T D^-1 J, gradient = J^T D^-1 r.
 PALOC_EXPORT NormalEquations leastSquares(std::span<const PlaneRow> rows);
 
-/// Information of the estimate of leastSquares() when its rows share errors that it does not know
-/// of. The residuals are r = J delta + e + B beta, with e ~ N(0, D), D diagonal, and beta ~ N(0, S)
-/// the shared errors: one bias per patch (B: 1 for its points), one of the range (B: n . ray). The
-/// estimate is then wrong by H^-1 G (e, beta) with H = J^T D^-1 J and G = J^T D^-1 B, so
+/// What shared errors add to the covariance of the gradient of leastSquares() (shared_errors.h):
 ///
-///   covariance  = H^-1 + H^-1 G S G^T H^-1,
-///   information = H (H + G S G^T)^-1 H,
 ///   G S G^T = sum_k S_k Y_k Y_k^T + range_bias^2 y y^T,
-///   Y_k = sum J/D over patch k,   y = sum (n . ray) J/D.
+///   Y_k = sum J/D over patch k,   y = sum (n . ray) J/D,
 ///
-/// Generalized least squares, with the information J^T (D + B S B^T)^-1 J, would be the better
-/// estimate if D, B and S were right. They are rough (where one patch ends and another begins,
-/// whose thickness is one error), and it then follows the few points that say most about
-/// differences between patches: over a walk through a map its errors came out twice as large.
-/// Shared errors are considered, not estimated (the Schmidt or "consider" covariance: Jazwinski,
-/// "Stochastic Processes and Filtering Theory", 1970, section 8.4).
-///
-/// Symmetric, positive semidefinite; a direction that no row fixes stays without information.
-/// Every row's patch must have its variance, or be -1.
-PALOC_EXPORT Mat6 informationUnderSharedErrors(std::span<const PlaneRow> rows,
-                                               const SharedErrors& shared);
+/// since a patch's bias enters its rows with 1, that of the range all rows with n . ray. Every
+/// row's patch must have its variance, or be -1.
+PALOC_EXPORT Mat6 sharedSpread(std::span<const PlaneRow> rows, const SharedErrors& shared);
 
 /// Gives each row the patch that it lies on and returns the variance of each patch's bias (m2):
 /// that of the survey, plane_bias^2, and a quarter of the mean square thickness of its surface,

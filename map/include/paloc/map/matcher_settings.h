@@ -4,8 +4,7 @@ namespace paloc {
 
 /// Settings of the registration of a scan to the prior map.
 struct MatcherSettings {
-  double scan_voxel_m = 0.1;  ///< finest voxels that the scan is thinned with
-  int max_points = 4000;      ///< after thinning: the voxels grow until no more are left
+  int max_points = 4000;  ///< of a scan, after thinning
   double max_distance_m =
       0.5;  ///< point to map point, in the first two iterations of a tracking match
   double fine_distance_m = 0.2;       ///< the same, from the third iteration on

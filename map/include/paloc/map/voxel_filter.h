@@ -11,23 +11,16 @@
 
 namespace paloc {
 
-/// Thins a scan: of the points in each cubic voxel, the one nearest to their centroid is kept. (The
-/// centroid itself would lie off both surfaces in the voxel of an edge.) Deterministic: the result
-/// depends on the points and their order alone, voxels come in the order of their first point, and
-/// of two points equally near the first wins. Keeps its hash table from call to call; one
-/// object serves one thread.
+/// Thins a cloud: of the points in each cubic voxel, the one nearest to their centroid is kept.
+/// (The centroid itself would lie off both surfaces in the voxel of an edge.) Deterministic: the
+/// result depends on the points and their order alone, voxels come in the order of their first
+/// point, and of two points equally near the first wins. Keeps its hash table from call to call;
+/// one object serves one thread.
 class PALOC_EXPORT VoxelFilter {
  public:
   /// The points kept, as indices. `voxel_m` > 0. Voxels are numbered from the origin of the points
   /// with 21 bits an axis; what lies further than 2^20 voxels away shares the outermost one.
   std::vector<std::uint32_t> select(std::span<const Point3f> points, double voxel_m);
-
-  /// The same, with at most `max_points` kept (at least 1): where `finest_voxel_m` leaves more,
-  /// the voxel is grown until it does not, so that the points stay evenly spread over the surfaces,
-  /// near and far. Of more than 16 times as many points only a part is looked at, spread evenly
-  /// over their order.
-  std::vector<std::uint32_t> selectAtMost(std::span<const Point3f> points, double finest_voxel_m,
-                                          std::size_t max_points);
 
  private:
   struct Cell {

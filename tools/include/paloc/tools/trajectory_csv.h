@@ -16,6 +16,9 @@ std::vector<StampedPose> stampedPoses(const std::vector<TrajectoryPoint>& trajec
 /// classes.
 std::string trajectoryCsv(const std::vector<TrajectoryPoint>& trajectory);
 
+/// Names of the 21 columns of the pose covariance in trajectory_cov.csv, in their order.
+std::vector<std::string> covarianceColumns();
+
 /// diagnostics.csv: a row per scan.
 std::string diagnosticsCsv(const std::vector<FrameDiagnostics>& diagnostics);
 
