@@ -101,6 +101,8 @@ std::map<std::string, Words> soundCalls(const test::TempDir& dir) {
       {"map convert", {"map", "convert", dir / "demo/map.ply", dir / "map.pcd"}},
       {"bench endurance", {"bench", "endurance", "--updates", "100"}},
       {"bench smoother", {"bench", "smoother", "--problem", dir / "resting.problem"}},
+      {"bench covariance",
+       {"bench", "covariance", "--places", "room", "--seeds", "1", "--duration", "2"}},
       {"bench degeneracy",
        {"bench", "degeneracy", "--scenes", "room", "--sensors", "vlp-16", "--poses", "1"}},
       {"bench registration",

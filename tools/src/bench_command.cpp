@@ -18,6 +18,7 @@ std::unique_ptr<Command> makeBenchCommand() {
   commands.push_back(makeBenchEnduranceCommand());
   commands.push_back(makeBenchRegistrationCommand());
   commands.push_back(makeBenchDegeneracyCommand());
+  commands.push_back(makeBenchCovarianceCommand());
   return std::make_unique<CommandGroup>("bench", "Measure speed and accuracy of a part",
                                         std::move(commands));
 }

@@ -11,12 +11,14 @@ using Json = nlohmann::ordered_json;
 std::string rowOf(const std::string& name, const NormalizedErrors& e) {
   char line[200];
   std::snprintf(line, sizeof line,
-                "%-12s %7zu %7.2f %9.2f %9.2f %7.2f %8.1f %% %8.2f %9.2f %8.2f %9.3f %9.3f\n",
+                "%-19s %7zu %7.2f %9.2f %9.2f %7.2f %8.1f %% %8.2f %9.2f %8.2f %9.3f %9.3f\n",
                 name.c_str(), e.poses, e.pose, e.position, e.rotation, e.pose_p95,
                 100 * e.outside_99, 1e3 * e.position_rmse_m, 1e3 * e.position_sigma_m,
                 1e3 * e.position_max_m, 1e3 * e.rotation_rmse_rad, 1e3 * e.rotation_sigma_rad);
   return line;
 }
+
+}  // namespace
 
 Json jsonOf(const NormalizedErrors& e) {
   return {{"poses", e.poses},
@@ -33,18 +35,23 @@ Json jsonOf(const NormalizedErrors& e) {
           {"rotation_sigma_rad", e.rotation_sigma_rad}};
 }
 
-}  // namespace
+std::string tableOf(const std::map<std::string, NormalizedErrors>& rows,
+                    const NormalizedErrors& all) {
+  std::string out =
+      "                              NEES per degree of freedom            outside     position "
+      "(mm)"
+      "             rotation (mrad)\n"
+      "                      poses    pose  position  rotation     p95   99 % of it     RMSE     "
+      "sigma"
+      "      max      RMSE     sigma\n";
+  for (const auto& [name, errors] : rows) out += rowOf(name, errors);
+  return out + rowOf("all", all);
+}
 
 std::string tableOf(const EvalCovarianceResult& result) {
   std::string out = "matched " + std::to_string(result.all.poses + result.unusable) + " of " +
-                    std::to_string(result.estimate_poses) + " poses\n\n";
-  out +=
-      "                       NEES per degree of freedom            outside     position (mm)"
-      "             rotation (mrad)\n"
-      "flag           poses    pose  position  rotation     p95   99 % of it     RMSE     sigma"
-      "      max      RMSE     sigma\n";
-  for (const auto& [flag, errors] : result.by_flag) out += rowOf(flag, errors);
-  out += rowOf("all", result.all);
+                    std::to_string(result.estimate_poses) + " poses\n\n" +
+                    tableOf(result.by_flag, result.all);
   if (result.unusable > 0) {
     out += "\n" + std::to_string(result.unusable) +
            " poses have a covariance that is not positive definite: left out\n";

@@ -6,22 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "paloc/tools/error_statistics.h"
+#include "paloc/core/trajectory.h"
+#include "paloc/tools/normalized_errors.h"
 #include "paloc/tools/trajectory_covariance.h"
 
 namespace paloc {
-
-/// Normalised errors of poses: the square of an error in units of its covariance, per degree of
-/// freedom (NEES/dof). 1 where the covariance is right, more where it is too sure.
-struct NormalizedErrors {
-  std::size_t poses = 0;
-  double pose = 0, position = 0, rotation = 0;  ///< means
-  double pose_p95 = 0;
-  double outside_99 = 0;  ///< share of poses outside their ellipsoid of 99 % (0.01 is right)
-  double position_rmse_m = 0, position_max_m = 0;
-  double position_sigma_m = 0;  ///< root of the mean trace: what the covariance says of the RMSE
-  double rotation_rmse_rad = 0, rotation_sigma_rad = 0;
-};
 
 struct EvalCovarianceResult {
   std::size_t reference_poses = 0, estimate_poses = 0;
@@ -30,6 +19,9 @@ struct EvalCovarianceResult {
   std::size_t unusable = 0;  ///< matched poses whose covariance is not finite or not positive
 };
 
+/// A trajectory as the rows of its trajectory_cov.csv.
+std::vector<CovariantPose> covariantPoses(const std::vector<TrajectoryPoint>& trajectory);
+
 /// Compares each pose of the estimate with the reference's of the same time (within `max_dt_s`); no
 /// alignment, since the covariance is that of the pose in the map. Throws IoError if no two belong
 /// together.
@@ -37,10 +29,15 @@ EvalCovarianceResult evaluateCovariance(const std::vector<StampedPose>& referenc
                                         const std::vector<CovariantPose>& estimate,
                                         double max_dt_s);
 
+/// Normalised errors as a table for people, a row each, all of them last.
+std::string tableOf(const std::map<std::string, NormalizedErrors>& rows,
+                    const NormalizedErrors& all);
+
 /// The result as a table for people.
 std::string tableOf(const EvalCovarianceResult& result);
 
-/// The result as JSON: m, rad, shares from 0 to 1.
+/// As JSON: m, rad, shares from 0 to 1.
+nlohmann::ordered_json jsonOf(const NormalizedErrors& errors);
 nlohmann::ordered_json jsonOf(const EvalCovarianceResult& result);
 
 }  // namespace paloc
