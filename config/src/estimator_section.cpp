@@ -29,6 +29,10 @@ std::vector<Setting> estimatorSettings() {
            "Width of the odometry factor's Huber kernel, in standard deviations.");
   s.number("map_correlation_distance_m", &S::map_correlation_distance_m, "m", {1e-6, 1e6},
            "Way over which the errors that scans share (plane_bias_m, range_bias_m) fall to 1/e.");
+  s.number("max_innovation_sigmas", &S::max_innovation_sigmas, "", {1, 1e6},
+           "A match further from the prediction, in standard deviations of both, is refused.");
+  s.count("believe_after_contradictions", &S::believe_after_contradictions, {1, 1000000},
+          "Refused for that in a row, matches that agree among themselves are believed.");
   s.number("rematch_position_m", &S::rematch_position_m, "m", {0, 100},
            "Smoothing at the end associates a scan with the map anew if its pose moved further.");
   s.number("rematch_rotation_rad", &S::rematch_rotation_rad, "rad", {0, 4},

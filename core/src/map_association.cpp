@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "paloc/core/match_plausibility.h"
 #include "paloc/core/mrpt_pose.h"
 
 namespace paloc {
@@ -33,6 +34,8 @@ bool associateAnew(MapMatcher& matcher, const EstimatorSettings& settings, const
       moved.tail<3>().norm() <= settings.rematch_rotation_rad) {
     return false;
   }
+  // The map is wrong there: however unsure the pose is in the end, such a match is no help.
+  if (association.match.refusal == MatchRefusal::kContradiction) return false;
   if (!association.scan) {
     ++counts.not_kept;
     return false;
@@ -45,6 +48,11 @@ bool associateAnew(MapMatcher& matcher, const EstimatorSettings& settings, const
       matcher.match(*association.scan, toMrpt(T_map_body), sigma_position, sigma_rotation);
   association.match.thinned.reset();
   association.T_map_body_guess = T_map_body;
+  const double limit = settings.max_innovation_sigmas;
+  if (association.match.accepted() &&
+      innovationSquare(association.match, T_map_body, covariance) > limit * limit) {
+    association.match.refusal = MatchRefusal::kContradiction;
+  }
   const bool accepted = association.match.accepted();
   counts.gained += accepted && !accepted_before ? 1 : 0;
   counts.withdrawn += !accepted && accepted_before ? 1 : 0;

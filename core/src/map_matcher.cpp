@@ -26,6 +26,8 @@ std::string toString(MatchRefusal refusal) {
       return "not converged";
     case MatchRefusal::kNotVerified:
       return "not verified";
+    case MatchRefusal::kContradiction:
+      return "contradicts the motion";
   }
   return "unknown";
 }

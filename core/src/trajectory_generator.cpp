@@ -39,6 +39,7 @@ TrajectoryGenerator::TrajectoryGenerator(const EstimatorSettings& settings,
       matcher_(std::move(matcher)),
       stillness_(settings.stillness),
       correlation_(settings.map_correlation_distance_m),
+      plausibility_(settings),
       smoother_(settings.smoother),
       scans_(settings.rematch_memory_mb) {}
 
@@ -191,6 +192,12 @@ MapMatch TrajectoryGenerator::matchScan(const OdometryFrame& frame, const State&
       matcher_->match(*frame.scan, toMrpt(predicted.T_map_body), sigma_position, sigma_rotation);
   if (!match.accepted() && refusals_in_a_row_ >= settings_.relocate_after_refusals) {
     match = matcher_->locate(*frame.scan, toMrpt(predicted.T_map_body));
+  }
+  Mat6 of_prediction = covariance.topLeftCorner<6, 6>();
+  of_prediction.topLeftCorner<3, 3>() +=
+      dt_s * dt_s * covariance.block<3, 3>(tangent::kVelocity, tangent::kVelocity);
+  if (match.accepted() && !plausibility_.believes(match, predicted.T_map_body, of_prediction)) {
+    match.refusal = MatchRefusal::kContradiction;
   }
   refusals_in_a_row_ = match.accepted() ? 0 : refusals_in_a_row_ + 1;
   return match;

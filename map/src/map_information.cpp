@@ -1,5 +1,6 @@
 #include "paloc/map/map_information.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +10,9 @@ namespace {
 
 constexpr double kSamePlaneCosine = 0.978;  // 12 degrees
 constexpr double kSamePlaneHeightM = 0.1;
-constexpr int kKnownRows = 5;              // of a patch, for its normal to be known
+constexpr int kKnownRows = 5;  // of a patch, for its normal to be known
+// A patch whose mean residual is more than so many squared standard deviations stands elsewhere.
+constexpr double kSureSquare = 9;
 constexpr double kSharedThickness = 0.25;  // of the square
 
 using Vec4f = float __attribute__((vector_size(16)));
@@ -146,18 +149,30 @@ NormalEquations leastSquares(std::span<const PlaneRow> rows) {
 }
 
 Mat6 sharedSpread(std::span<const PlaneRow> rows, const SharedErrors& shared) {
-  std::vector<Vec6> patch_sums(shared.patch_variances.size(), Vec6::Zero());  // Y_k
-  Vec6 range_sum = Vec6::Zero();                                              // y
+  struct PatchSums {
+    Vec6 jacobian = Vec6::Zero();  // Y_k
+    double weight = 0, residual = 0;
+  };
+  std::vector<PatchSums> patches(shared.patch_variances.size());
+  Vec6 range_sum = Vec6::Zero();  // y
   for (const PlaneRow& row : rows) {
     const Vec6 weighted = row.jacobian() / row.variance;
     range_sum += row.range_factor * weighted;
-    if (row.patch >= 0 && !patch_sums.empty()) {
-      patch_sums[static_cast<std::size_t>(row.patch)] += weighted;
-    }
+    if (row.patch < 0 || patches.empty()) continue;
+    PatchSums& patch = patches[static_cast<std::size_t>(row.patch)];
+    patch.jacobian += weighted;
+    patch.weight += 1 / row.variance;
+    patch.residual += row.residual / row.variance;
   }
   Mat6 spread = (shared.range_bias_m * shared.range_bias_m) * range_sum * range_sum.transpose();
-  for (std::size_t k = 0; k < patch_sums.size(); ++k) {
-    spread += shared.patch_variances[k] * patch_sums[k] * patch_sums[k].transpose();
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    const PatchSums& patch = patches[k];
+    if (patch.weight <= 0) continue;
+    const double mean = patch.residual / patch.weight;
+    const double expected = shared.patch_variances[k] + 1 / patch.weight;
+    const bool wrong = mean * mean > kSureSquare * expected;
+    const double variance = wrong ? mean * mean : shared.patch_variances[k];
+    spread += variance * patch.jacobian * patch.jacobian.transpose();
   }
   return spread;
 }

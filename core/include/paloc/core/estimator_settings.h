@@ -39,6 +39,10 @@ struct EstimatorSettings {
   /// Thinned scans kept for that; beyond it only those that were refused or left a direction open.
   double rematch_memory_mb = 1000;
 
+  /// A match further from the prediction than so many standard deviations of both is refused...
+  double max_innovation_sigmas = 6.0;
+  int believe_after_contradictions = 10;  ///< ...until so many in a row agree among themselves
+
   int max_start_attempts = 50;  ///< scans tried from the initial pose before giving up
   int relocate_after_refusals =
       10;                          ///< map factors refused in a row before a start is searched anew

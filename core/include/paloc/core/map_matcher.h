@@ -37,6 +37,7 @@ enum class MatchRefusal {
   kLargeStep,
   kNotConverged,
   kNotVerified,
+  kContradiction,  ///< to what IMU, odometry and earlier matches say
 };
 
 /// One or two words for tables ("low overlap").

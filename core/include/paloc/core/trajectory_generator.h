@@ -11,6 +11,7 @@
 #include "paloc/core/map_association.h"
 #include "paloc/core/map_correlation.h"
 #include "paloc/core/map_matcher.h"
+#include "paloc/core/match_plausibility.h"
 #include "paloc/core/odometry_frame.h"
 #include "paloc/core/stage_timer.h"
 #include "paloc/core/stillness_detector.h"
@@ -84,6 +85,7 @@ class PALOC_EXPORT TrajectoryGenerator {
   ImuBuffer imu_;
   StillnessDetector stillness_;
   ScanCorrelation correlation_;
+  MatchPlausibility plausibility_;
   FixedLagSmoother smoother_;
   KeptScans scans_;
   std::optional<Pose> T_map_body_initial_;

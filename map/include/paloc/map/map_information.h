@@ -52,8 +52,10 @@ PALOC_EXPORT NormalEquations leastSquares(std::span<const PlaneRow> rows);
 ///   G S G^T = sum_k S_k Y_k Y_k^T + range_bias^2 y y^T,
 ///   Y_k = sum J/D over patch k,   y = sum (n . ray) J/D,
 ///
-/// since a patch's bias enters its rows with 1, that of the range all rows with n . ray. Every
-/// row's patch must have its variance, or be -1.
+/// since a patch's bias enters its rows with 1, that of the range all rows with n . ray. S_k is the
+/// patch's variance; or the square of its weighted mean residual where that is beyond three
+/// standard deviations: so a wall that was moved since the survey, or was matched with another one,
+/// is in the covariance. Every row's patch must have its variance, or be -1.
 PALOC_EXPORT Mat6 sharedSpread(std::span<const PlaneRow> rows, const SharedErrors& shared);
 
 /// Gives each row the patch that it lies on and returns the variance of each patch's bias (m2):
