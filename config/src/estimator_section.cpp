@@ -43,7 +43,15 @@ std::vector<Setting> estimatorSettings() {
            "Thinned scans kept for that; beyond it only those that were refused or left a "
            "direction open.");
   s.count("max_start_attempts", &S::max_start_attempts, {1, 1000000},
-          "Scans tried from the initial pose before giving up.");
+          "Scans tried from the initial pose, or without one, before giving up.");
+  s.number("start_search_interval_s", &S::start_search_interval_s, "s", {0, 3600},
+           "After a search of the map that failed, until the next one.");
+  s.number("start_position_holds_m", &S::start_position_holds_m, "m", {0, 1000},
+           "Way from the first scan that an initial position without a heading outlasts.");
+  s.count("start_confirmations", &S::start_confirmations, {0, 1000000},
+          "Scans that must bear out a start found by search.");
+  s.number("start_confirm_motion_m", &S::start_confirm_motion_m, "m", {0, 1000},
+           "Way that must lie between that start and the last of them.");
   s.count("relocate_after_refusals", &S::relocate_after_refusals, {1, 1000000},
           "Map factors refused in a row before a start is searched anew.");
   s.number("coasting_after_s", &S::coasting_after_s, "s", {0, 3600},

@@ -65,6 +65,26 @@ void addLocate(Rows& s) {
            "Share of rays through a surface of the map, above which a start is not believed.");
 }
 
+template <typename Rows>
+void addStart(Rows& s) {
+  s.number("start_reach_m", &S::start_reach_m, "m", {0.1, 100},
+           "A start is searched within this of a rough position, along each axis.");
+  s.number("start_reach_rad", &S::start_reach_rad, "rad", {0.01, 3.15},
+           "And within this of a rough pose's heading.");
+  s.number("start_position_reach_m", &S::start_position_reach_m, "m", {0.1, 100},
+           "As start_reach_m, where a position is known and no heading.");
+  s.number("start_cell_m", &S::start_cell_m, "m", {0.05, 5},
+           "Cell of the search's grid; it grows where the map is too large for it.");
+  s.number("start_min_explained", &S::start_min_explained, "", {0, 1},
+           "Share of a scan's points on surfaces of the map, less the share of its rays that pass "
+           "through "
+           "one, below which a start is not believed.");
+  s.number("start_min_lead", &S::start_min_lead, "", {0, 1},
+           "Lead in that share over the second-best place, below which a start is ambiguous.");
+  s.number("start_max_mlookups", &S::start_max_mlookups, "", {1, 1e6},
+           "Million look-ups in the grids after which a search is given up.");
+}
+
 }  // namespace
 
 std::vector<Setting> matcherSettings() {
@@ -74,6 +94,7 @@ std::vector<Setting> matcherSettings() {
   addNoise(s);
   addGates(s);
   addLocate(s);
+  addStart(s);
   s.count("threads", &S::threads, {1, 64},
           "Threads that seek correspondences; no influence on the result.");
   return std::move(s).rows();

@@ -28,6 +28,14 @@ std::string toString(MatchRefusal refusal) {
       return "not verified";
     case MatchRefusal::kContradiction:
       return "contradicts the motion";
+    case MatchRefusal::kNoPlaceFound:
+      return "fits nowhere in the map";
+    case MatchRefusal::kAmbiguous:
+      return "ambiguous";
+    case MatchRefusal::kSearchUnfinished:
+      return "search not finished";
+    case MatchRefusal::kNotConfirmed:
+      return "not confirmed";
   }
   return "unknown";
 }

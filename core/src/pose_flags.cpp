@@ -48,16 +48,4 @@ void setPoseFlags(const std::vector<bool>& has_map_factor, const EstimatorSettin
   }
 }
 
-std::string noTrajectoryReason(std::size_t frames, bool has_initial_pose, int start_attempts,
-                               MatchRefusal last_refusal) {
-  if (frames == 0) return "the recording gave no odometry frame: no scan could be used";
-  if (!has_initial_pose) return "no initial pose was given (--init-pose or --init-tum)";
-  if (start_attempts == 0) return "no frame had a scan to locate in the map";
-  const std::string where = start_attempts == 1 ? "at the only scan tried: "
-                                                : "at each of " + std::to_string(start_attempts) +
-                                                      " scans tried, the last time: ";
-  return "the initial pose was refused " + where + toString(last_refusal) +
-         " (one within about 1 m and 10 degrees is needed)";
-}
-
 }  // namespace paloc

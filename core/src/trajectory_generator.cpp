@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "paloc/core/measured_up.h"
 #include "paloc/core/mrpt_pose.h"
 #include "paloc/core/pose_flags.h"
 #include "paloc/core/start_prior.h"
@@ -41,12 +42,15 @@ TrajectoryGenerator::TrajectoryGenerator(const EstimatorSettings& settings,
       correlation_(settings.map_correlation_distance_m),
       plausibility_(settings),
       smoother_(settings.smoother),
-      scans_(settings.rematch_memory_mb) {}
+      scans_(settings.rematch_memory_mb),
+      start_(settings) {}
 
 TrajectoryGenerator::~TrajectoryGenerator() = default;
 
 void TrajectoryGenerator::setInitialPose(const mrpt::poses::CPose3D& T_map_body) {
-  T_map_body_initial_ = fromMrpt(T_map_body);
+  StartGuess guess;
+  guess.T_map_body = T_map_body;
+  start_.setGuess(guess);
 }
 
 void TrajectoryGenerator::add(const FrontendEvent& event) {
@@ -78,6 +82,7 @@ void TrajectoryGenerator::addFrame(const OdometryFrame& frame) {
     return;
   }
   stillness_.addOdometry(frame.t_ns, T_odom_body, frame.continues);
+  start_.follow(T_odom_body, frame.continues && !odometry_broken_);
   if (history_.empty()) {
     tryStart(frame);
     rememberOdometry(T_odom_body);
@@ -101,27 +106,22 @@ void TrajectoryGenerator::rememberOdometry(const Pose& T_odom_body) {
   odometry_broken_ = false;
 }
 
-// The rough pose belongs to the first frame; until a start is believed, odometry carries it on.
 void TrajectoryGenerator::tryStart(const OdometryFrame& frame) {
-  if (!T_odom_body_first_) {
-    T_odom_body_first_ = fromMrpt(frame.T_odom_body);
-  } else if (frame.continues) {
-    motion_since_first_ =
-        motion_since_first_ * (T_odom_body_last_.inverse() * fromMrpt(frame.T_odom_body));
-  }
   FrameDiagnostics row;
   row.t_ns = row.scan_start_ns = frame.t_ns;
   row.match.refusal = frame.scan ? MatchRefusal::kNotTried : MatchRefusal::kNoScan;
-  if (frame.scan) row.scan_start_ns = frame.scan->start_ns;
-  if (T_map_body_initial_ && frame.scan && start_attempts_ < settings_.max_start_attempts) {
-    ++start_attempts_;
-    StageScope stage(timer_, "locate");
-    const Pose rough = *T_map_body_initial_ * motion_since_first_;
-    row.match = matcher_->locate(*frame.scan, toMrpt(rough));
-    last_start_refusal_ = row.match.refusal;
-    const Vec6 step = boxminus(fromMrpt(row.match.T_map_body), rough);
-    row.guess_step_position = step.head<3>();
-    row.guess_step_rotation = step.tail<3>().norm();
+  if (frame.scan) {
+    row.scan_start_ns = frame.scan->start_ns;
+    if (const auto guess = start_.guessAt(frame.t_ns, measuredUp(imu_, frame.t_ns, settings_))) {
+      StageScope stage(timer_, "locate");
+      row.match = matcher_->locate(*frame.scan, *guess);
+      start_.tried(frame.t_ns, *guess, row.match);
+      if (guess->T_map_body) {
+        const Vec6 step = boxminus(fromMrpt(row.match.T_map_body), fromMrpt(*guess->T_map_body));
+        row.guess_step_position = step.head<3>();
+        row.guess_step_rotation = step.tail<3>().norm();
+      }
+    }
   }
   diagnostics_.push_back(row);
   if (row.match.accepted()) start(frame, row.match);
@@ -137,6 +137,20 @@ void TrajectoryGenerator::start(const OdometryFrame& frame, const MapMatch& matc
   const Pose guess = node.state.T_map_body;
   history_.push_back({std::move(node), diagnostics_.size() - 1, scans_.associate(match, guess)});
   diagnostics_.back().match.thinned.reset();
+}
+
+// A start that the scans after it do not bear out is forgotten, with all that hangs on it, and
+// sought anew.
+void TrajectoryGenerator::dropStart() {
+  for (std::size_t k = history_.front().diagnostics_index; k < diagnostics_.size(); ++k) {
+    diagnostics_[k].match.refusal = MatchRefusal::kNotConfirmed;
+  }
+  history_.clear();
+  online_.clear();
+  smoother_ = FixedLagSmoother(settings_.smoother);
+  scans_ = KeptScans(settings_.rematch_memory_mb);
+  refusals_in_a_row_ = 0;
+  start_.drop();
 }
 
 void TrajectoryGenerator::advance(const OdometryFrame& frame) {
@@ -167,12 +181,14 @@ void TrajectoryGenerator::advance(const OdometryFrame& frame) {
   if (row.match.accepted()) addMapFactor(row.match, dt_s, node);
   row.at_rest = stillness_.update(frame.t_ns, last.state.bias_gyro);
   if (row.at_rest) addStationaryFactors(last.t_ns, diagnostics_.back().at_rest, node);
+  const bool believed = start_.confirm(row.match);
   if (append(std::move(node), row)) {
     rememberOdometry(fromMrpt(frame.T_odom_body));
   } else {
     motion_skipped_ = frame.motion_covariance;
     odometry_broken_ = !frame.continues;
   }
+  if (!believed) dropStart();
 }
 
 MapMatch TrajectoryGenerator::matchScan(const OdometryFrame& frame, const State& predicted,
@@ -191,7 +207,8 @@ MapMatch TrajectoryGenerator::matchScan(const OdometryFrame& frame, const State&
   match =
       matcher_->match(*frame.scan, toMrpt(predicted.T_map_body), sigma_position, sigma_rotation);
   if (!match.accepted() && refusals_in_a_row_ >= settings_.relocate_after_refusals) {
-    match = matcher_->locate(*frame.scan, toMrpt(predicted.T_map_body));
+    match = matcher_->locate(*frame.scan,
+                             {.T_map_body = toMrpt(predicted.T_map_body), .search_around = false});
   }
   Mat6 of_prediction = covariance.topLeftCorner<6, 6>();
   of_prediction.topLeftCorner<3, 3>() +=
@@ -272,6 +289,7 @@ void TrajectoryGenerator::collectLeft() {
 }
 
 std::vector<TrajectoryPoint> TrajectoryGenerator::takeOnline() {
+  if (start_.pending()) return {};
   const auto from = online_.begin() + static_cast<std::ptrdiff_t>(online_taken_);
   std::vector<TrajectoryPoint> result(from, online_.end());
   online_taken_ = online_.size();
@@ -351,6 +369,7 @@ void TrajectoryGenerator::putMapFactors(std::vector<ChainNode>& nodes) const {
 }
 
 Result TrajectoryGenerator::finish(Smoothing smoothing) {
+  if (start_.pending() && !start_.confirmedEnough()) dropStart();
   for (const NodeEstimate& rest : smoother_.window(true)) {
     const auto index = static_cast<std::size_t>(rest.id);
     history_[index].node.state = rest.state;
@@ -371,8 +390,9 @@ Result TrajectoryGenerator::finish(Smoothing smoothing) {
   result.frames_before_start =
       history_.empty() ? diagnostics_.size() : history_[0].diagnostics_index;
   if (result.trajectory.empty()) {
-    result.no_trajectory_reason = noTrajectoryReason(
-        diagnostics_.size(), T_map_body_initial_.has_value(), start_attempts_, last_start_refusal_);
+    result.no_trajectory_reason =
+        diagnostics_.empty() ? "the recording gave no odometry frame: no scan could be used"
+                             : start_.reason();
   }
   return result;
 }

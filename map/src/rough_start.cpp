@@ -9,9 +9,6 @@ namespace {
 
 constexpr std::size_t kCoarsePoints = 800;
 constexpr std::size_t kRays = 300;
-constexpr double kRayStepM = 0.2;
-constexpr double kRayMarginM = 0.5;  // before the end of a ray: that surface may be a little nearer
-constexpr double kBlockRadiusM = 0.08;  // a ray this near to a map point passes through its surface
 constexpr double kFitsM = 0.1;
 constexpr double kGoodShare =
     0.9;  // of all matched, and of all matchable: no further start is tried
@@ -40,45 +37,6 @@ int fittingPoints(const Registration& registration) {
   int fitting = 0;
   for (const PlaneRow& row : registration.rows()) fitting += std::abs(row.residual) < kFitsM;
   return fitting;
-}
-
-std::vector<Point3f> everyNth(const std::vector<Point3f>& points, std::size_t count) {
-  const std::size_t step = std::max<std::size_t>(points.size() / count, 1);
-  std::vector<Point3f> some;
-  for (std::size_t i = 0; i < points.size(); i += step) some.push_back(points[i]);
-  return some;
-}
-
-// The share of rays that meet the map on the way to their end: at the right pose, next to none.
-double blockedShare(const PriorMap& map, const std::vector<Point3f>& points_body,
-                    const Vec3& sensor_body, const Pose& pose) {
-  const Vec3 from = pose * sensor_body;
-  std::size_t rays = 0, blocked = 0;
-  for (const Point3f& p : everyNth(points_body, kRays)) {
-    const Vec3 to =
-        pose * Vec3(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z));
-    const double length = (to - from).norm();
-    if (length < 2 * kRayMarginM) continue;
-    ++rays;
-    const Vec3 direction = (to - from) / length;
-    const int steps = static_cast<int>(std::ceil((length - 2 * kRayMarginM) / kRayStepM));
-    for (int step = 0; step < steps; ++step) {
-      const double along = kRayMarginM + step * kRayStepM;
-      const Vec3 at = from + along * direction;
-      const Point3f query{static_cast<float>(at.x()), static_cast<float>(at.y()),
-                          static_cast<float>(at.z())};
-      const PriorMap::Nearest nearest = map.nearest(query, static_cast<float>(kBlockRadiusM));
-      if (!nearest.found()) continue;
-      // A ray that glides along a floor or wall comes near to it and does not pass through.
-      const MapPlane plane = map.plane(nearest.index);
-      const Vec3 normal(static_cast<double>(plane.nx), static_cast<double>(plane.ny),
-                        static_cast<double>(plane.nz));
-      if (!plane.planar() || std::abs(normal.dot(direction)) < 0.5) continue;
-      ++blocked;
-      break;
-    }
-  }
-  return rays == 0 ? 0 : static_cast<double>(blocked) / static_cast<double>(rays);
 }
 
 }  // namespace
@@ -110,10 +68,10 @@ RoughStart searchAround(Registration& registration, const PriorMap& map,
       best, {.first_gate_m = settings.max_distance_m,
              .gate_m = std::min(settings.fine_distance_m, settings.max_distance_m),
              .max_iterations = settings.max_iterations});
-  found.fitting_share = fittingPoints(registration) / std::max(1.0, 1.0 * found.alignment.matched);
-  found.blocked_share = blockedShare(map, all, sensor, found.alignment.T_local_body);
-  found.verified = found.fitting_share >= settings.locate_min_inlier_share &&
-                   found.blocked_share <= settings.locate_max_blocked_share;
+  found.evidence = weighStart(registration, found.alignment, map, kRays);
+  found.verified = found.evidence.fitting >= settings.locate_min_inlier_share &&
+                   found.evidence.worth() >= settings.start_min_explained &&
+                   found.evidence.blocked <= settings.locate_max_blocked_share;
   return found;
 }
 

@@ -1,15 +1,15 @@
 #pragma once
 
 #include "registration.h"
+#include "start_verification.h"
 
 namespace paloc {
 
 /// What a search around a rough pose found.
 struct RoughStart {
-  Alignment alignment;       ///< the best one
-  bool verified = false;     ///< enough points fit, and few rays pass through surfaces
-  double fitting_share = 0;  ///< of the matched points, within 10 cm of their plane
-  double blocked_share = 0;  ///< of the rays that were looked at
+  Alignment alignment;  ///< the best one
+  StartEvidence evidence;
+  bool verified = false;  ///< enough points fit, and few rays pass through surfaces
 };
 
 /// Registers the points set in `registration` from a rough pose (map-local, about 1 m and 10

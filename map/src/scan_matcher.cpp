@@ -5,13 +5,18 @@
 #include <cmath>
 
 #include "paloc/core/mrpt_pose.h"
+#include "paloc/map/scan_level.h"
 #include "paloc/map/scan_thinning.h"
 #include "registration.h"
 #include "rough_start.h"
+#include "start_finder.h"
+#include "start_region.h"
 
 namespace paloc {
 namespace {
 
+constexpr double kSurelyExplained = 0.98;  // of a scan: elsewhere it cannot fit much better
+constexpr double kNearM = 1, kNearRad = 0.25;
 constexpr double kOutsideShare = 0.1;  // of the points near any map point, below: outside the map
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
@@ -26,7 +31,8 @@ class ScanMatcher::Work {
       : map_(std::move(map)),
         settings_(settings),
         arena_(std::max(settings.threads, 1)),
-        registration_(*map_, settings_, arena_) {}
+        registration_(*map_, settings_, arena_),
+        finder_(*map_, settings_) {}
 
   MapMatch match(const Scan& scan, const Pose& guess, double sigma_position,
                  double sigma_rotation) {
@@ -44,11 +50,30 @@ class ScanMatcher::Work {
     return answer;
   }
 
-  MapMatch locate(const Scan& scan, const Pose& rough) {
+  MapMatch locate(const Scan& scan, StartGuess guess) {
+    // Registration alone does not need it: it is for the near.
+    if (!guess.up_body && (guess.search_around || !guess.T_map_body)) {
+      guess.up_body = levelOfScan(scan.points_body, upOf(guess));
+    }
+    if (!guess.T_map_body) return search(scan, guess);
+    const MapMatch direct = locateFrom(scan, levelled(guess));
+    const bool sure = direct.accepted() && direct.explained >= kSurelyExplained;
+    if (sure || !guess.search_around || !searchable(direct)) return direct;
+    return theBetter(direct, search(scan, guess));
+  }
+
+  const Timing& timing() const { return timing_; }
+
+ private:
+  Pose toLocal(const Pose& pose) const { return {pose.position - map_->origin(), pose.rotation}; }
+
+  // By registration alone.
+  MapMatch locateFrom(const Scan& scan, const Pose& rough) {
     MapMatch answer = begin(scan, rough);
     if (answer.refusal == MatchRefusal::kNoScan || tooFew(answer)) return answer;
     const RoughStart found = searchAround(registration_, *map_, settings_, toLocal(rough));
     fill(found.alignment, answer);
+    tellEvidence(found.evidence, answer);
     const Vec6 step = boxminus(fromMrpt(answer.T_map_body), rough);
     if (answer.accepted() && (step.head<3>().norm() > settings_.locate_max_step_m ||
                               step.tail<3>().norm() > settings_.locate_max_step_rad)) {
@@ -58,10 +83,61 @@ class ScanMatcher::Work {
     return answer;
   }
 
-  const Timing& timing() const { return timing_; }
+  // Of what registration from a rough pose came to and what was found by search: the first may be
+  // good enough, but not the best thereabouts. Somewhere else must fit much worse, or much better,
+  // for either to be believed.
+  MapMatch theBetter(MapMatch direct, const MapMatch& searched) const {
+    if (!direct.accepted()) {
+      const bool far_out = direct.refusal == MatchRefusal::kOutsideMap &&
+                           searched.refusal == MatchRefusal::kNoPlaceFound;
+      return far_out ? direct : searched;  // the more telling of the two
+    }
+    const double lead =
+        (searched.explained - searched.blocked) - (direct.explained - direct.blocked);
+    // Along an open direction the rough pose is all there is.
+    if (lead <= 0 || leavesOpen(direct)) return direct;
+    const Vec6 apart = boxminus(fromMrpt(searched.T_map_body), fromMrpt(direct.T_map_body));
+    const bool near = apart.head<3>().norm() < kNearM && apart.tail<3>().norm() < kNearRad;
+    if (near || lead >= settings_.start_min_lead) return searched;
+    direct.refusal = MatchRefusal::kAmbiguous;
+    return direct;
+  }
 
- private:
-  Pose toLocal(const Pose& pose) const { return {pose.position - map_->origin(), pose.rotation}; }
+  static bool leavesOpen(const MapMatch& match) {
+    return std::any_of(
+        match.directions.begin(), match.directions.end(),
+        [](const MatchDirection& direction) { return direction.cls == DirectionClass::kNone; });
+  }
+
+  static bool searchable(const MapMatch& refused) {
+    return refused.refusal != MatchRefusal::kNoScan &&
+           refused.refusal != MatchRefusal::kTooFewPoints;
+  }
+
+  MapMatch search(const Scan& scan, const StartGuess& guess) {
+    MapMatch answer = begin(scan, guess.T_map_body ? fromMrpt(*guess.T_map_body) : Pose{});
+    answer.searched = true;
+    if (answer.refusal == MatchRefusal::kNoScan || tooFew(answer)) return answer;
+    const FoundStart found = finder_.find(
+        scan.points_body, startRegion(guess, map_->origin(), finder_.everywhere(), settings_),
+        registration_);
+    if (found.alignment.iterations == 0) {
+      answer.refusal = found.refusal;
+      return answer;
+    }
+    fill(found.alignment, answer);
+    tellEvidence(found.evidence, answer);
+    answer.runner_up = found.runner_up;
+    if (answer.accepted()) answer.refusal = found.refusal;
+    // Along a direction that the map leaves open, any place would have done as well.
+    if (answer.accepted() && leavesOpen(answer)) answer.refusal = MatchRefusal::kAmbiguous;
+    return answer;
+  }
+
+  static void tellEvidence(const StartEvidence& evidence, MapMatch& answer) {
+    answer.explained = evidence.explained;
+    answer.blocked = evidence.blocked;
+  }
 
   // Thins the scan and sets it up. The answer still says "not converged".
   MapMatch begin(const Scan& scan, const Pose& guess) {
@@ -140,6 +216,7 @@ class ScanMatcher::Work {
   tbb::task_arena arena_;
   Registration registration_;
   ScanThinning thinning_;
+  StartFinder finder_;
   Timing timing_;
 };
 
@@ -157,8 +234,8 @@ MapMatch ScanMatcher::match(const Scan& scan, const mrpt::poses::CPose3D& T_map_
   return work_->match(scan, fromMrpt(T_map_body_guess), guess_sigma_position, guess_sigma_rotation);
 }
 
-MapMatch ScanMatcher::locate(const Scan& scan, const mrpt::poses::CPose3D& T_map_body_rough) {
-  return work_->locate(scan, fromMrpt(T_map_body_rough));
+MapMatch ScanMatcher::locate(const Scan& scan, const StartGuess& guess) {
+  return work_->locate(scan, guess);
 }
 
 const ScanMatcher::Timing& ScanMatcher::lastTiming() const { return work_->timing(); }

@@ -5,8 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "paloc/core/mrpt_pose.h"
+#include "paloc/map/cloud_io.h"
 #include "paloc/tools/command.h"
 #include "paloc/tools/trajectory_csv.h"
+#include "replay_demo.h"
 #include "run_program.h"
 #include "temp_dir.h"
 
@@ -98,6 +100,8 @@ std::map<std::string, Words> soundCalls(const test::TempDir& dir) {
       {"eval covariance", {"eval", "covariance", truth, dir / "trajectory_cov.csv"}},
       {"config describe", {"config", "describe"}},
       {"map info", {"map", "info", dir / "demo/map.ply"}},
+      {"map locate",
+       {"map", "locate", dir / "scan.pcd", "--map", dir / "demo/map.ply", "--init", "auto"}},
       {"map convert", {"map", "convert", dir / "demo/map.ply", dir / "map.pcd"}},
       {"bench endurance", {"bench", "endurance", "--updates", "100"}},
       {"bench smoother", {"bench", "smoother", "--problem", dir / "resting.problem"}},
@@ -105,6 +109,9 @@ std::map<std::string, Words> soundCalls(const test::TempDir& dir) {
        {"bench", "covariance", "--places", "room", "--seeds", "1", "--duration", "2"}},
       {"bench degeneracy",
        {"bench", "degeneracy", "--scenes", "room", "--sensors", "vlp-16", "--poses", "1"}},
+      {"bench start",
+       {"bench", "start", "--scene", "room", "--sensor", "vlp-16", "--places", "1", "--wrong",
+        "0"}},
       {"bench registration",
        {"bench", "registration", "--map-points", "20000", "--places", "2", "--threads", "1"}},
   };
@@ -122,6 +129,7 @@ TEST(Json, IsOneObjectOnStandardOutputAndNothingElse) {
                                      "--duration", "2", "-o", dir / "demo", "--json"}));
   test::writeFile(dir / "resting.problem", restingProblem());
   writeForeignRecordings(dir);
+  savePcd(dir / "scan.pcd", test::firstScan(dir / "demo/recording.rawlog"));
   writeCovariantTruth(dir);
 
   CLI::App app;

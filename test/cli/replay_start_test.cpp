@@ -112,10 +112,48 @@ TEST_F(ReplayStart, WithoutAnInitialPoseThereIsNoLocalization) {
   const ReplayRun run = withOptions({});
   EXPECT_EQ(run.exit_code, 4);
   EXPECT_EQ(run.summary.at("status"), "no localization");
-  EXPECT_EQ(run.sentence(), "no initial pose was given (--init-pose or --init-tum).");
+  EXPECT_EQ(run.sentence(),
+            "no initial pose was given (--init-pose, --init-tum, --init-position or --init auto).");
   EXPECT_NE(run.err.find("note: LiDAR 'lidar'"), std::string::npos) << run.err;
   EXPECT_EQ(run.summary.at("map_factors").at("refused").at("not tried"), 50);
   EXPECT_FALSE(std::filesystem::exists(run.folder / "trajectory.tum"));
+}
+
+// The recording's first 2.5 s stand still: only then is a start by search borne out.
+TEST_F(ReplayStart, IsFoundFromWhateverIsKnown) {
+  const auto truth = readTum(test::demoFolder() / "truth.tum");
+  const Pose& first = truth.front().pose;
+  const auto words = [&](const Vec3& off) {
+    const Vec3 at = first.position + off;
+    return std::to_string(at.x()) + ',' + std::to_string(at.y()) + ',' + std::to_string(at.z());
+  };
+  const double yaw_deg = std::atan2(first.rotation(1, 0), first.rotation(0, 0)) * 180 / M_PI;
+  for (const test::Words& start :
+       {test::Words{"--init", "auto"}, test::Words{"--init-position=" + words(Vec3(0.4, -0.4, 0))},
+        test::Words{"--init-pose=" + words(Vec3(2, 2, 0.5)) + ',' + std::to_string(yaw_deg + 40) +
+                    ",0,0"}}) {
+    const ReplayRun run = withOptions(start, {"--overwrite"});
+    EXPECT_EQ(run.exit_code, 0) << start[0] << ": " << run.err << run.out;
+    const auto poses = readTum(run.folder / "trajectory.tum");
+    ASSERT_EQ(poses.size(), truth.size()) << start[0];
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+      EXPECT_LT((poses[k].pose.position - truth[k].pose.position).norm(), 0.02) << k;
+    }
+    EXPECT_NE(run.file("report.html").find(start[0]), std::string::npos) << "how it was called";
+  }
+}
+
+TEST_F(ReplayStart, RecordingOfAnotherPlaceIsNotLocalized) {
+  const auto made = test::runPaloc({"synth", "--scene", "room", "--sensor", "vlp-16", "--duration",
+                                    "3", "--map-spacing", "0.08", "-o", dir_ / "room"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  ReplayCall call;
+  call.log = dir_ / "room/recording.rawlog";
+  call.start = {"--init", "auto"};
+  const ReplayRun run = replay(call);
+  EXPECT_EQ(run.exit_code, 4) << run.out;
+  EXPECT_NE(run.sentence().find("no place in the map was believed"), std::string::npos)
+      << run.sentence();
 }
 
 TEST_F(ReplayStart, InitialPoseFarOffIsRefusedWithAReason) {
@@ -130,6 +168,9 @@ TEST_F(ReplayStart, InitialPoseFarOffIsRefusedWithAReason) {
 TEST_F(ReplayStart, WrongCallsAreUsageErrors) {
   expectRefused(withOptions({"--init-pose=1,2,3"}), 2,
                 "--init-pose: '1,2,3' is not x,y,z,yaw,pitch,roll");
+  expectRefused(withOptions({"--init-position=1,2,3,4"}), 2,
+                "--init-position: '1,2,3,4' is not x,y,z (m)");
+  EXPECT_EQ(withOptions({"--init", "auto", "--init-pose=0,0,0,0,0,0"}).exit_code, 2);
   expectRefused(withOptions({}, {"--frontend", "nope"}), 2, "there are: 'recorded'");
   expectRefused(withOptions({}, {"--from", "3", "--to", "2"}), 2, "--to must be later than --from");
   const auto config = dir_.write("site.yaml", "matcher:\n  max_point: 3\n");

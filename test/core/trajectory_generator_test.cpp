@@ -31,7 +31,7 @@ class TruthMatcher : public MapMatcher {
     }
     return m;
   }
-  MapMatch locate(const Scan& scan, const mrpt::poses::CPose3D&) override { return answer(scan); }
+  MapMatch locate(const Scan& scan, const StartGuess&) override { return answer(scan); }
 
   std::function<bool(double)> available = [](double) { return true; };
   bool degenerate = false;
@@ -218,8 +218,8 @@ class LateMatcher : public TruthMatcher {
     }
     return m;
   }
-  MapMatch locate(const Scan& scan, const mrpt::poses::CPose3D& rough) override {
-    return match(scan, rough, 1, 1);
+  MapMatch locate(const Scan& scan, const StartGuess& guess) override {
+    return match(scan, *guess.T_map_body, 1, 1);
   }
 
  private:
@@ -255,6 +255,75 @@ TEST(TrajectoryGenerator, AssociatesAnewWhereSmoothingMovedThePoses) {
   simulation.settings.rematch_memory_mb = 0;
   const Result no_memory = runAnew();
   EXPECT_EQ(no_memory.rematched.gained, result.rematched.gained) << "refused scans are kept";
+}
+
+/// Finds scans by search; before `right_from_s` at a place 3 m beside the truth.
+class SearchMatcher : public TruthMatcher {
+ public:
+  using TruthMatcher::TruthMatcher;
+  double right_from_s = 0;
+  int searches = 0;
+
+  MapMatch locate(const Scan& scan, const StartGuess& guess) override {
+    MapMatch m = TruthMatcher::locate(scan, guess);
+    if (guess.T_map_body) return m;  // asked whether the scan bears out a start
+    ++searches;
+    EXPECT_TRUE(guess.up_body);
+    m.searched = true;
+    if (secondsBetween(0, scan.end_ns) < right_from_s) m.T_map_body.x_incr(3);
+    return m;
+  }
+};
+
+struct SearchedRun {
+  Simulation simulation;
+  std::shared_ptr<SearchMatcher> matcher = std::make_shared<SearchMatcher>(simulation.motion);
+
+  Result run() {
+    simulation.matcher = matcher;
+    TrajectoryGenerator generator(simulation.settings, matcher);
+    generator.setInitialGuess({});
+    for (int f = 0; f <= static_cast<int>(simulation.duration_s / kFrame_s); ++f) {
+      for (int k = 0; k < 20; ++k) {
+        generator.add(simulation.motion.imu((f + k / 20.0) * kFrame_s));
+      }
+      if (f == 0) continue;
+      generator.add(simulation.motion.imu((f + 1) * kFrame_s));
+      generator.add(simulation.frameAt(f));
+    }
+    return generator.finish();
+  }
+};
+
+TEST(TrajectoryGenerator, BelievesAStartBySearchThatLaterScansBearOut) {
+  SearchedRun searched;
+  const Result result = searched.run();
+  EXPECT_EQ(searched.matcher->searches, 1);
+  EXPECT_EQ(result.frames_before_start, 0u);
+  EXPECT_EQ(result.trajectory.size(), 200u);
+  EXPECT_LT(searched.simulation.rmse(result.trajectory), 0.3 * kMapSigma_m);
+}
+
+TEST(TrajectoryGenerator, DropsAStartBySearchThatLaterScansDeny) {
+  SearchedRun searched;
+  searched.matcher->right_from_s = 0.25;
+  const Result result = searched.run();
+  EXPECT_EQ(searched.matcher->searches, 2);
+  EXPECT_GT(result.frames_before_start, 5u);  // a second passes until the next search
+  ASSERT_GT(result.trajectory.size(), 180u);
+  EXPECT_LT(searched.simulation.rmse(result.trajectory), 0.3 * kMapSigma_m);
+  EXPECT_EQ(result.diagnostics[0].match.refusal, MatchRefusal::kNotConfirmed);
+  EXPECT_EQ(result.diagnostics.size(), 200u);
+  EXPECT_EQ(result.online.size(), result.trajectory.size());
+}
+
+TEST(TrajectoryGenerator, RecordingTooShortToBearOutAStartHasNoTrajectory) {
+  SearchedRun searched;
+  searched.simulation.duration_s = 0.4;
+  const Result result = searched.run();
+  EXPECT_TRUE(result.trajectory.empty());
+  EXPECT_NE(result.no_trajectory_reason.find("not confirmed"), std::string::npos)
+      << result.no_trajectory_reason;
 }
 
 TEST(TrajectoryGenerator, StartsLateWhenTheFirstScansAreRefused) {

@@ -60,7 +60,9 @@ TEST(ScanMatcher, LocatesFromARoughPose) {
       moved(truth, 0.5, 0, 0, 0, 0, 0.087), moved(truth, -0.3, 0.4, 0.1, 0.02, 0, -0.087),
       moved(truth, 0.6, -0.6, 0, 0, 0, 0.17), moved(truth, -0.7, -0.5, -0.1, 0, 0.02, -0.17)};
   for (const auto& start : starts) {
-    const MapMatch match = matcher->locate(roomScan(), start);
+    StartGuess guess;
+    guess.T_map_body = start;
+    const MapMatch match = matcher->locate(roomScan(), guess);
     ASSERT_TRUE(match.accepted()) << toString(match.refusal);
     EXPECT_LT(boxminus(fromMrpt(match.T_map_body), truth).norm(), 0.01);
   }
@@ -121,8 +123,9 @@ TEST(ScanMatcher, AWrongPlaceIsNotBelieved) {
   test::BoxWorld other{
       {{Vec3(-2, -6, 0), Vec3(2.5, 7, 4)}, {Vec3(0.5, 2, 0), Vec3(2.5, 3, 2.5)}}, {}, {}};
   const Scan scan = simulateScan(other, {Vec3(0, 0, 1.4), Mat3::Identity()}, 20000, {0.02}, 30, 3);
-  const MapMatch match =
-      ScanMatcher::onto(roomMap(), {})->locate(scan, toMrpt(truthIn(furnishedRoom())));
+  StartGuess guess;
+  guess.T_map_body = toMrpt(truthIn(furnishedRoom()));
+  const MapMatch match = ScanMatcher::onto(roomMap(), {})->locate(scan, guess);
   EXPECT_FALSE(match.accepted());
 }
 

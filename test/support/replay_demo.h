@@ -9,7 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "paloc/core/mrpt_pose.h"
+#include "paloc/frontends/CObservationLidarScan.h"
 #include "paloc/frontends/rawlog_stream.h"
+#include "paloc/map/point_cloud.h"
 #include "run_program.h"
 #include "temp_dir.h"
 
@@ -42,6 +45,24 @@ inline Observations demoObservations() {
   Observations all;
   while (auto observation = stream.next()) all.push_back(std::move(observation));
   return all;
+}
+
+/// The first scan of a recording, in the body's frame, as a cloud.
+inline PointCloud firstScan(const std::filesystem::path& log) {
+  RawlogStream stream(log);
+  while (const auto observation = stream.next()) {
+    const auto scan = std::dynamic_pointer_cast<obs::CObservationLidarScan>(observation);
+    if (!scan) continue;
+    const Pose T_body_lidar = fromMrpt(scan->sensorPoseOnRobot);
+    PointCloud cloud;
+    for (std::size_t i = 0; i < scan->size(); ++i) {
+      const Vec3 p = T_body_lidar * Vec3(scan->x[i], scan->y[i], scan->z[i]);
+      cloud.points.push_back(
+          {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())});
+    }
+    return cloud;
+  }
+  throw std::runtime_error(log.string() + " has no scan");
 }
 
 inline void writeLog(const std::filesystem::path& file, const Observations& observations) {

@@ -19,6 +19,7 @@ std::unique_ptr<Command> makeBenchCommand() {
   commands.push_back(makeBenchRegistrationCommand());
   commands.push_back(makeBenchDegeneracyCommand());
   commands.push_back(makeBenchCovarianceCommand());
+  commands.push_back(makeBenchStartCommand());
   return std::make_unique<CommandGroup>("bench", "Measure speed and accuracy of a part",
                                         std::move(commands));
 }

@@ -13,6 +13,7 @@ std::unique_ptr<Command> makeBenchDegeneracyCommand();
 std::unique_ptr<Command> makeBenchEnduranceCommand();
 std::unique_ptr<Command> makeBenchRegistrationCommand();
 std::unique_ptr<Command> makeBenchSmootherCommand();
+std::unique_ptr<Command> makeBenchStartCommand();
 
 /// Prints to standard output; throws IoError where that fails.
 void printResult(const std::string& result);

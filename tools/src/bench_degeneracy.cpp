@@ -8,11 +8,8 @@
 #include "paloc/core/mrpt_pose.h"
 #include "paloc/map/scan_matcher.h"
 #include "paloc/map/scan_thinning.h"
+#include "paloc/tools/bench_place.h"
 #include "paloc/tools/synth_random.h"
-#include "paloc/tools/synth_recording.h"
-#include "paloc/tools/synth_scene.h"
-#include "paloc/tools/synth_sensor.h"
-#include "paloc/tools/synth_survey.h"
 
 namespace paloc {
 namespace {
@@ -21,7 +18,6 @@ using synth::RandomPurpose;
 using synth::RandomStream;
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kAsideM = 0.3, kUpM = 0.2, kTiltSigmaRad = 4 * kDegree, kCarryHeightM = 1.35;
 constexpr double kGuessSigmaM = 0.05 / std::numbers::sqrt3, kGuessSigmaRad = 0.5 * kDegree;
 
 Vec3 normals(RandomStream& random, double sigma) {
@@ -29,76 +25,36 @@ Vec3 normals(RandomStream& random, double sigma) {
   return sigma * Vec3(x, y, z);
 }
 
-/// A point of the closed route, evenly spread over its length.
-Vec3 somewhereOn(const std::vector<Vec3>& route, RandomStream& random) {
-  double length = 0;
-  const auto leg = [&](std::size_t i) -> Vec3 { return route[(i + 1) % route.size()] - route[i]; };
-  for (std::size_t i = 0; i < route.size(); ++i) length += leg(i).norm();
-  double left = random.uniform() * length;
-  std::size_t i = 0;
-  while (i + 1 < route.size() && left > leg(i).norm()) left -= leg(i++).norm();
-  return route[i] + left * leg(i).normalized();
-}
-
-Pose randomPose(const std::vector<Vec3>& route, RandomStream& random) {
-  Vec3 at = somewhereOn(route, random);
-  for (int axis = 0; axis < 2; ++axis) at[axis] += kAsideM * (2 * random.uniform() - 1);
-  at.z() += kCarryHeightM + kUpM * (2 * random.uniform() - 1);
-  const double yaw = 2 * std::numbers::pi * random.uniform();
-  const double roll = kTiltSigmaRad * random.normal(), pitch = kTiltSigmaRad * random.normal();
-  return {at, so3::exp(Vec3(0, 0, yaw)) * so3::exp(Vec3(roll, pitch, 0))};
+synth::SurveyModel surveyModel(const BenchDegeneracySettings& settings) {
+  synth::SurveyModel model;
+  model.spacing_m = settings.map_spacing_m;
+  model.angular_step_deg = settings.survey_step_deg;
+  return model;
 }
 
 /// One scene with its map, in which sensors are tried.
 class Place {
  public:
   Place(const std::string& name, const BenchDegeneracySettings& settings)
-      : settings_(settings), scene_(synth::makeScene(name)), raycaster_(scene_.mesh) {
-    synth::SurveyModel model;
-    model.spacing_m = settings.map_spacing_m;
-    model.angular_step_deg = settings.survey_step_deg;
-    const PointCloud cloud =
-        survey(model, scene_.mesh, raycaster_, scene_.survey_stations, settings.seed);
-    map_ = PriorMap::build(cloud, settings.map, name);
-  }
+      : settings_(settings),
+        place_(synth::makeScene(name), surveyModel(settings), settings.map, settings.seed) {}
 
   BenchDegeneracyRow tryOut(const std::string& sensor_name, std::ostream* list) const;
 
  private:
-  Scan scanAt(const synth::SensorModel& sensor, const Pose& T_map_body, std::size_t index) const;
   LabelledDirections labelsAt(const synth::SensorModel& sensor, const Pose& T_map_body,
                               std::size_t index) const;
 
   const BenchDegeneracySettings& settings_;
-  synth::Scene scene_;
-  synth::Raycaster raycaster_;
-  std::shared_ptr<const PriorMap> map_;
-  Pose T_body_lidar_ = synth::defaultExtrinsic();
+  BenchPlace place_;
 };
-
-Scan Place::scanAt(const synth::SensorModel& sensor, const Pose& T_map_body,
-                   std::size_t index) const {
-  const synth::Motion still({T_map_body}, 0.05, 0);
-  const synth::Surroundings surroundings(raycaster_);
-  const synth::LidarSimulator simulator(sensor, T_body_lidar_, scene_.mesh, surroundings, still,
-                                        settings_.seed);
-  const auto observation = simulator.scan(index, 0);
-  Scan scan;
-  scan.sensor_position_body = T_body_lidar_.position;
-  for (std::size_t i = 0; i < observation->size(); ++i) {
-    const Vec3 p = T_body_lidar_ * Vec3(observation->x[i], observation->y[i], observation->z[i]);
-    scan.points_body.push_back(
-        {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())});
-  }
-  return scan;
-}
 
 // The same rays without noise, thinned as the matcher does: it cannot know more.
 LabelledDirections Place::labelsAt(const synth::SensorModel& sensor, const Pose& T_map_body,
                                    std::size_t index) const {
   synth::SensorModel exact = sensor;
   exact.range_noise_m = 0;
-  const Scan scan = scanAt(exact, T_map_body, index);
+  const Scan scan = place_.scanAt(exact, T_map_body, index);
   const std::vector<std::uint32_t> kept =
       ScanThinning().select(scan.points_body, scan.sensor_position_body,
                             static_cast<std::size_t>(settings_.matcher.max_points));
@@ -111,7 +67,7 @@ LabelledDirections Place::labelsAt(const synth::SensorModel& sensor, const Pose&
     rays_map.push_back((T_map_body.rotation * ray).normalized().cast<float>());
   }
   std::vector<synth::RayHit> hits(rays_map.size());
-  raycaster_.cast(T_map_body * scan.sensor_position_body, rays_map, hits);
+  place_.raycaster().cast(T_map_body * scan.sensor_position_body, rays_map, hits);
   for (std::size_t i = 0; i < points.size(); ++i) {
     points[i].normal_body = T_map_body.rotation.transpose() * hits[i].normal_scene.cast<double>();
   }
@@ -139,15 +95,15 @@ BenchDegeneracyRow Place::tryOut(const std::string& sensor_name, std::ostream* l
   const synth::SensorModel sensor = synth::makeSensor(sensor_name);
   MatcherSettings matching = settings_.matcher;
   matching.range_noise_m = sensor.range_noise_m;
-  const auto matcher = ScanMatcher::onto(map_, matching);
-  BenchDegeneracyRow row{scene_.name, sensor_name, {}, {}};
+  const auto matcher = ScanMatcher::onto(place_.map(), matching);
+  BenchDegeneracyRow row{place_.scene().name, sensor_name, {}, {}};
   for (std::size_t i = 0; i < settings_.poses; ++i) {
-    RandomStream random(settings_.seed, RandomPurpose::kPose, i);
-    const Pose truth = randomPose(scene_.route, random);
+    RandomStream random(settings_.seed, RandomPurpose::kStart, i);
+    const Pose truth = place_.pose(i);
     Vec6 off;
     off << normals(random, kGuessSigmaM), normals(random, kGuessSigmaRad);
     const MapMatch match =
-        matcher->match(scanAt(sensor, truth, i), toMrpt(boxplus(truth, off)), 0.05, 0.01);
+        matcher->match(place_.scanAt(sensor, truth, i), toMrpt(boxplus(truth, off)), 0.05, 0.01);
     const LabelledDirections labels = labelsAt(sensor, truth, i);
     if (list) listDirections(*list, row, i, truth, labels, match);
     if (!match.accepted()) {

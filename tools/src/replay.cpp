@@ -3,7 +3,6 @@
 #include <chrono>
 #include <optional>
 
-#include "paloc/core/mrpt_pose.h"
 #include "paloc/core/trajectory_generator.h"
 #include "paloc/map/prior_map.h"
 #include "paloc/map/scan_matcher.h"
@@ -87,7 +86,7 @@ void Replay::makeEstimator() {
   generator_ = std::make_unique<TrajectoryGenerator>(config_.estimator,
                                                      ScanMatcher::onto(map_, config_.matcher));
   generator_->setStageTimer(&stopwatch_);
-  if (options_.T_map_body_initial) generator_->setInitialPose(toMrpt(*options_.T_map_body_initial));
+  if (options_.initial) generator_->setInitialGuess(*options_.initial);
 }
 
 void Replay::take(const EventBatch& batch) {

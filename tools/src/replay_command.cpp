@@ -5,25 +5,24 @@
 #include <sstream>
 
 #include "paloc/core/errors.h"
-#include "paloc/core/mrpt_pose.h"
 #include "paloc/frontends/tum_file.h"
 #include "paloc/tools/commands.h"
 #include "paloc/tools/config_options.h"
 #include "paloc/tools/dense_output.h"
 #include "paloc/tools/html_text.h"
-#include "paloc/tools/parse_pose.h"
 #include "paloc/tools/progress_line.h"
 #include "paloc/tools/replay.h"
 #include "paloc/tools/replay_summary.h"
 #include "paloc/tools/replay_writers.h"
 #include "paloc/tools/result_folder.h"
+#include "paloc/tools/start_options.h"
 
 namespace paloc {
 namespace {
 
 constexpr const char* kExample = R"(Example:
   paloc replay recording.rawlog --map map.ply --init-pose 1.2,0.4,1.6,90,0,0 -o result
-  paloc replay recording.rawlog --map map.ply --init-tum truth.tum --set smoother.lag_s=10
+  paloc replay recording.rawlog --map map.ply --init auto --set smoother.lag_s=10
 
 The pose written for a scan is that of the body at the scan's end, in the map's frame.
 Exit codes: 0 all poses good, 1 finished but part of the result is flagged, 2 wrong usage or
@@ -78,11 +77,8 @@ class ReplayCommand : public Command {
         ->required();
     replay_->add_option("--frontend", options_.frontend, "odometry front-end")
         ->capture_default_str();
-    auto* pose = replay_->add_option("--init-pose", init_pose_,
-                                     "rough pose of the body at the first scan: "
-                                     "x,y,z,yaw,pitch,roll (m, degrees)");
-    replay_->add_option("--init-tum", init_tum_, "take that from the first pose of this TUM file")
-        ->excludes(pose);
+    start_.registerOn(*replay_, "at the first scan");
+    start_.registerTumOn(*replay_);
     replay_->add_option("--from", options_.from_s, "skip this much of the recording (s)")
         ->check(CLI::NonNegativeNumber);
     replay_->add_option("--to", to_s_, "stop this long after the recording's start (s)")
@@ -115,10 +111,7 @@ class ReplayCommand : public Command {
     if (threads_ > 0) config.map.threads = config.matcher.threads = threads_;
     if (no_side_file_) config.map.side_file = false;
     checkConfig(config);
-    if (!init_pose_.empty()) {
-      options_.T_map_body_initial = fromMrpt(parsePose(init_pose_, "--init-pose"));
-    }
-    if (!init_tum_.empty()) options_.T_map_body_initial = readTum(init_tum_).front().pose;
+    options_.initial = start_.guess();
     if (to_s_ > 0) options_.to_s = to_s_;
     if (options_.to_s && *options_.to_s <= options_.from_s) {
       throw UsageError("--to must be later than --from: both count from the recording's start");
@@ -182,8 +175,7 @@ class ReplayCommand : public Command {
     std::ostringstream line;
     line << "paloc replay " << options_.log_file << " --map " << options_.map_file << " --frontend "
          << options_.frontend << " --config config_effective.yaml";
-    if (!init_pose_.empty()) line << " --init-pose=" << init_pose_;
-    if (!init_tum_.empty()) line << " --init-tum " << init_tum_;
+    line << start_.words();
     if (options_.online) line << " --online";
     if (rate_ != "scan") line << " --rate " << rate_;
     if (!stamps_file_.empty()) line << " --stamps " << stamps_file_;
@@ -195,7 +187,7 @@ class ReplayCommand : public Command {
   CLI::App* replay_ = nullptr;
   ReplayOptions options_;
   ConfigOptions config_;
-  std::string init_pose_, init_tum_;
+  StartOptions start_;
   std::string rate_ = "scan", stamps_file_;
   std::vector<TimeNs> stamps_;
   std::string output_ = "paloc_result";

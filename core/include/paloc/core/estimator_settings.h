@@ -43,7 +43,12 @@ struct EstimatorSettings {
   double max_innovation_sigmas = 6.0;
   int believe_after_contradictions = 10;  ///< ...until so many in a row agree among themselves
 
-  int max_start_attempts = 50;  ///< scans tried from the initial pose before giving up
+  int max_start_attempts = 50;           ///< scans tried from what is given before giving up
+  double start_search_interval_s = 1.0;  ///< after a search that failed, until the next one
+  double start_position_holds_m = 0.5;   ///< way from the first frame that an initial position
+                                         ///< outlasts: which way it moves on cannot be told
+  int start_confirmations = 5;           ///< scans that must bear out a start found by search
+  double start_confirm_motion_m = 0.5;   ///< between that start and the last of them
   int relocate_after_refusals =
       10;                          ///< map factors refused in a row before a start is searched anew
   double coasting_after_s = 0.35;  ///< a pose further from any map factor is flagged as coasting

@@ -9,6 +9,7 @@
 #include "paloc/core/export.h"
 #include "paloc/core/scan.h"
 #include "paloc/core/shared_errors.h"
+#include "paloc/core/start_guess.h"
 
 namespace paloc {
 
@@ -38,6 +39,10 @@ enum class MatchRefusal {
   kNotConverged,
   kNotVerified,
   kContradiction,  ///< to what IMU, odometry and earlier matches say
+  kNoPlaceFound,      ///< a search: the scan fits nowhere in the map
+  kAmbiguous,         ///< a search: it fits more than one place, or one place in more than one way
+  kSearchUnfinished,  ///< a search: given up before everything was looked at
+  kNotConfirmed,      ///< a start found by search, which the scans that followed did not bear out
 };
 
 /// One or two words for tables ("low overlap").
@@ -63,6 +68,10 @@ struct MapMatch {
   double residual_rms_m = 0;     ///< of the inliers
   double residual_median_m = 0;  ///< of the absolute residuals of the matched
   int iterations = 0;
+  bool searched = false;  ///< found by search, not by registration from a rough pose
+  double explained = 0;   ///< of a start: share of the points tried that lie on the map's surfaces
+  double blocked = 0;     ///< of a start: share of the rays that pass through surfaces of the map
+  double runner_up = 0;   ///< of a search: `explained` less `blocked` of the second-best place
   /// The points that were tried, enough to match the scan again; null if there is no such need.
   std::shared_ptr<const Scan> thinned;
 
@@ -85,9 +94,10 @@ class PALOC_EXPORT MapMatcher {
   virtual MapMatch match(const Scan& scan, const mrpt::poses::CPose3D& T_map_body_guess,
                          double guess_sigma_position, double guess_sigma_rotation) = 0;
 
-  /// Registers a scan from a rough pose (up to about 1 m and 10 degrees away), verified before it
-  /// is believed: a refusal says why it is not.
-  virtual MapMatch locate(const Scan& scan, const mrpt::poses::CPose3D& T_map_body_rough) = 0;
+  /// Finds a scan in the map, and verifies what it finds before it is believed: a refusal says why
+  /// it is not. From a rough pose within about 1 m and 10 degrees by registration; from one worse
+  /// than that, from a position, or from nothing by a search.
+  virtual MapMatch locate(const Scan& scan, const StartGuess& guess) = 0;
 };
 
 }  // namespace paloc

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "paloc/core/estimator_settings.h"
@@ -12,9 +11,5 @@ namespace paloc {
 PALOC_EXPORT void setPoseFlags(const std::vector<bool>& has_map_factor,
                                const EstimatorSettings& settings,
                                std::vector<TrajectoryPoint>& points);
-
-/// Why a run has no trajectory at all, in one sentence.
-PALOC_EXPORT std::string noTrajectoryReason(std::size_t frames, bool has_initial_pose,
-                                            int start_attempts, MatchRefusal last_refusal);
 
 }  // namespace paloc

@@ -14,6 +14,7 @@
 #include "paloc/core/match_plausibility.h"
 #include "paloc/core/odometry_frame.h"
 #include "paloc/core/stage_timer.h"
+#include "paloc/core/start_tracker.h"
 #include "paloc/core/stillness_detector.h"
 #include "paloc/core/trajectory.h"
 #include "paloc/core/unused_counts.h"
@@ -30,8 +31,11 @@ class PALOC_EXPORT TrajectoryGenerator {
   TrajectoryGenerator(const EstimatorSettings& settings, std::shared_ptr<MapMatcher> matcher);
   ~TrajectoryGenerator();
 
-  /// The body's pose in the map at the first frame, roughly (up to about 1 m and 10 degrees off):
-  /// it is refined by registration, and refused with a reason if that is not convincing.
+  /// What is known of the body's pose in the map at the first frame. A pose up to about 1 m and 10
+  /// degrees off is refined by registration; one worse than that, a position, or nothing, by a
+  /// search of the map, and what a search finds must be borne out by the scans that follow. What is
+  /// not convincing is refused with a reason. Without a guess no start is tried.
+  void setInitialGuess(const StartGuess& guess) { start_.setGuess(guess); }
   void setInitialPose(const mrpt::poses::CPose3D& T_map_body);
   /// Told of the stages "match", "preintegrate", "smooth" and "batch"; may be null.
   void setStageTimer(StageTimer* timer) { timer_ = timer; }
@@ -39,7 +43,8 @@ class PALOC_EXPORT TrajectoryGenerator {
   /// In order of time. Trouble in the data is counted, never thrown.
   void add(const FrontendEvent& event);
 
-  /// Poses that have left the fixed-lag window since the last call, oldest first.
+  /// Poses that have left the fixed-lag window since the last call, oldest first. None while the
+  /// start found by search may still be dropped.
   std::vector<TrajectoryPoint> takeOnline();
   /// What happened at the last frame; null before the first.
   const FrameDiagnostics* lastFrame() const;
@@ -63,6 +68,7 @@ class PALOC_EXPORT TrajectoryGenerator {
   void addFrame(const OdometryFrame& frame);
   void tryStart(const OdometryFrame& frame);
   void start(const OdometryFrame& frame, const MapMatch& match);
+  void dropStart();
   void advance(const OdometryFrame& frame);
   MapMatch matchScan(const OdometryFrame& frame, const State& predicted, double dt_s);
   void addEdgeFactors(const OdometryFrame& frame, const std::optional<ImuFactor>& imu, double dt_s,
@@ -88,15 +94,11 @@ class PALOC_EXPORT TrajectoryGenerator {
   MatchPlausibility plausibility_;
   FixedLagSmoother smoother_;
   KeptScans scans_;
-  std::optional<Pose> T_map_body_initial_;
-  std::optional<Pose> T_odom_body_first_;  // of the first frame, which the initial pose belongs to
-  Pose T_odom_body_last_;                  // of the last node; before the start, of the last frame
-  Mat6 motion_skipped_ = Mat6::Zero();     // covariance of the frames since that gave no node
-  bool odometry_broken_ = false;           // one of these began a new stream
-  Pose motion_since_first_;
-  int start_attempts_ = 0;
+  StartTracker start_;
+  Pose T_odom_body_last_;               // of the last node; before the start, of the last frame
+  Mat6 motion_skipped_ = Mat6::Zero();  // covariance of the frames since that gave no node
+  bool odometry_broken_ = false;        // one of these began a new stream
   int refusals_in_a_row_ = 0;
-  MatchRefusal last_start_refusal_ = MatchRefusal::kNone;
   std::vector<HistoryNode> history_;
   std::vector<TrajectoryPoint> online_;
   std::size_t online_taken_ = 0;

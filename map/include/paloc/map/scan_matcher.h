@@ -23,10 +23,12 @@ class PALOC_EXPORT ScanMatcher : public MapMatcher {
   MapMatch match(const Scan& scan, const mrpt::poses::CPose3D& T_map_body_guess,
                  double guess_sigma_position, double guess_sigma_rotation) override;
 
-  /// See MapMatcher. Tries a fixed set of starts about the rough pose, coarse to fine, keeps the
-  /// one that the most points fit, and believes it only when enough points lie on their planes and
-  /// few rays pass through a surface of the map.
-  MapMatch locate(const Scan& scan, const mrpt::poses::CPose3D& T_map_body_rough) override;
+  /// See MapMatcher. From a rough pose: tries a fixed set of starts about it, coarse to fine, and
+  /// keeps the one that the most points fit. By search: branch and bound over grids of the map
+  /// (which are made at the first), positions and headings within reach of what is known. Both
+  /// believe a place only when enough of the scan's points lie on the map and few rays pass through
+  /// a surface of it; the search also wants it well before the second-best place.
+  MapMatch locate(const Scan& scan, const StartGuess& guess) override;
 
   /// Time of the parts of the last match (s).
   struct Timing {

@@ -9,7 +9,7 @@
 
 #include "paloc/config/config.h"
 #include "paloc/core/imu_buffer.h"
-#include "paloc/core/pose.h"
+#include "paloc/core/start_guess.h"
 #include "paloc/core/trajectory.h"
 #include "paloc/core/unused_counts.h"
 #include "paloc/map/point_cloud.h"
@@ -23,12 +23,12 @@ struct ReplayOptions {
   std::filesystem::path log_file;
   std::filesystem::path map_file;
   std::string frontend = "recorded";
-  std::optional<Pose> T_map_body_initial;  ///< rough pose at the first scan
-  double from_s = 0;                       ///< skip so much of the recording at its start
-  std::optional<double> to_s;              ///< stop so long after the recording's start
-  bool online = false;                     ///< the result is what left the fixed-lag window
-  bool keep_imu = false;                   ///< the outcome holds all IMU samples, for dense output
-  double output_voxel_m = 0.05;            ///< of the map made of the scans
+  std::optional<StartGuess> initial;  ///< what is known of the pose at the first scan
+  double from_s = 0;                  ///< skip so much of the recording at its start
+  std::optional<double> to_s;         ///< stop so long after the recording's start
+  bool online = false;                ///< the result is what left the fixed-lag window
+  bool keep_imu = false;              ///< the outcome holds all IMU samples, for dense output
+  double output_voxel_m = 0.05;       ///< of the map made of the scans
 };
 
 /// How far a replay is, for the progress line.

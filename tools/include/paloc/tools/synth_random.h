@@ -14,7 +14,8 @@ enum class RandomPurpose : std::uint64_t {
   kSurvey,
   kSurfaceBias,
   kRooms,
-  kPose
+  kPose,
+  kStart
 };
 
 /// A stream of random numbers of its own for (seed, purpose, index), so that work may be done in

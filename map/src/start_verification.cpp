@@ -1,0 +1,92 @@
+#include "start_verification.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace paloc {
+namespace {
+
+constexpr double kRayStepM = 0.2;
+constexpr double kRayMarginM = 0.5;  // before the end of a ray: that surface may be a little nearer
+constexpr double kOnMapM = 0.08;     // this near to a map point is on its surface
+// Within a surface, and not past its edge, is what has surface on all sides so far away.
+constexpr double kInsideM = 0.15;
+constexpr double kFitsM = 0.1;
+constexpr double kThroughCosine = 0.5;  // flatter rays glide along a surface
+
+PriorMap::Nearest nearestTo(const PriorMap& map, const Vec3& at, double within_m) {
+  return map.nearest(
+      {static_cast<float>(at.x()), static_cast<float>(at.y()), static_cast<float>(at.z())},
+      static_cast<float>(within_m));
+}
+
+// Whether a ray through `at` crosses a surface less than half a step from there, well inside it.
+bool passesThrough(const PriorMap& map, const Vec3& at, const Vec3& direction) {
+  const PriorMap::Nearest nearest = nearestTo(map, at, kRayStepM / 2 + kOnMapM);
+  if (!nearest.found()) return false;
+  const MapPlane plane = map.plane(nearest.index);
+  const Vec3 normal(static_cast<double>(plane.nx), static_cast<double>(plane.ny),
+                    static_cast<double>(plane.nz));
+  const double cosine = normal.dot(direction);
+  if (!plane.planar() || std::abs(cosine) < kThroughCosine) return false;
+  const Point3f p = map.point(nearest.index);
+  const Vec3 to_plane =
+      Vec3(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)) - at;
+  const double along = (normal.dot(to_plane) + static_cast<double>(plane.offset_m)) / cosine;
+  if (std::abs(along) > kRayStepM / 2) return false;
+  const Vec3 crossing = at + along * direction;
+  const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u);
+  for (const Vec3& aside : {Vec3(Vec3::Zero()), Vec3(u), Vec3(-u), Vec3(v), Vec3(-v)}) {
+    if (!nearestTo(map, crossing + kInsideM * aside, kOnMapM).found()) return false;
+  }
+  return true;
+}
+
+// The share of rays that meet the map on the way to their end: at the right pose, next to none.
+double blockedShare(const PriorMap& map, const std::vector<Point3f>& points_body,
+                    const Vec3& sensor_body, const Pose& pose, std::size_t count) {
+  const Vec3 from = pose * sensor_body;
+  std::size_t rays = 0, blocked = 0;
+  for (const Point3f& p : everyNth(points_body, count)) {
+    const Vec3 to =
+        pose * Vec3(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z));
+    const double length = (to - from).norm();
+    if (length < 2 * kRayMarginM) continue;
+    ++rays;
+    const Vec3 direction = (to - from) / length;
+    const int steps = static_cast<int>(std::ceil((length - 2 * kRayMarginM) / kRayStepM));
+    for (int step = 0; step < steps; ++step) {
+      if (!passesThrough(map, from + (kRayMarginM + step * kRayStepM) * direction, direction)) {
+        continue;
+      }
+      ++blocked;
+      break;
+    }
+  }
+  return rays == 0 ? 0 : static_cast<double>(blocked) / static_cast<double>(rays);
+}
+
+}  // namespace
+
+std::vector<Point3f> everyNth(const std::vector<Point3f>& points, std::size_t count) {
+  const std::size_t step = std::max<std::size_t>(points.size() / count, 1);
+  std::vector<Point3f> some;
+  for (std::size_t i = 0; i < points.size(); i += step) some.push_back(points[i]);
+  return some;
+}
+
+StartEvidence weighStart(const Registration& registration, const Alignment& alignment,
+                         const PriorMap& map, std::size_t rays) {
+  int fitting = 0;
+  for (const PlaneRow& row : registration.rows()) fitting += std::abs(row.residual) < kFitsM;
+  const int tried = static_cast<int>(registration.points().size());
+  const int undecided = alignment.near - alignment.matched;
+  StartEvidence evidence;
+  evidence.explained = fitting / std::max(1.0, 1.0 * (tried - undecided));
+  evidence.fitting = fitting / std::max(1.0, 1.0 * alignment.matched);
+  evidence.blocked = blockedShare(map, registration.points(), registration.sensorPosition(),
+                                  alignment.T_local_body, rays);
+  return evidence;
+}
+
+}  // namespace paloc

@@ -1,0 +1,173 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "paloc/core/mrpt_pose.h"
+#include "paloc/map/scan_level.h"
+#include "paloc/map/scan_matcher.h"
+#include "simulated_rooms.h"
+
+namespace paloc {
+namespace {
+
+using test::furnishedRoom;
+using test::sampleMap;
+using test::simulateScan;
+
+const Pose kBodyInWorld{Vec3(-0.5, -0.3, 1.4),
+                        so3::exp(Vec3(0.06, -0.04, 0)) * so3::exp(Vec3(0, 0, 0.5))};
+
+Pose truthIn(const test::BoxWorld& world) { return world.T_map_world * kBodyInWorld; }
+
+Scan scanIn(const test::BoxWorld& world, unsigned seed = 5) {
+  return simulateScan(world, truthIn(world), 20000, {0.02}, 30, seed);
+}
+
+std::shared_ptr<const PriorMap> mapOf(const test::BoxWorld& world) {
+  return PriorMap::build(sampleMap(world, 0.06, 0.003, 1), {});
+}
+
+std::shared_ptr<const PriorMap> roomMap() {
+  static const auto map = mapOf(furnishedRoom());
+  return map;
+}
+
+StartGuess roughly(const Pose& truth, const Vec3& off_m, double yaw) {
+  StartGuess guess;
+  guess.T_map_body =
+      toMrpt(Pose{truth.position + off_m, so3::exp(Vec3(0, 0, yaw)) * truth.rotation});
+  return guess;
+}
+
+void expectFound(const MapMatch& match, const Pose& truth) {
+  ASSERT_TRUE(match.accepted()) << toString(match.refusal) << ' ' << match.explained << ' '
+                                << match.blocked << ' ' << match.runner_up;
+  const Vec6 error = boxminus(fromMrpt(match.T_map_body), truth);
+  EXPECT_LT(error.head<3>().norm(), 0.01);
+  EXPECT_LT(error.tail<3>().norm(), 0.004);
+}
+
+TEST(StartLocate, FindsAScanFromThreeMetresAndFortyFiveDegrees) {
+  const Pose truth = truthIn(furnishedRoom());
+  const auto matcher = ScanMatcher::onto(roomMap(), {});
+  for (const Vec3& off : {Vec3(3, 0, 0), Vec3(-2, -2, 0.5), Vec3(1, 2.5, -1), Vec3(0, -2, 2)}) {
+    for (const double yaw : {0.78, -0.78}) {
+      const MapMatch match = matcher->locate(scanIn(furnishedRoom()), roughly(truth, off, yaw));
+      expectFound(match, truth);
+      EXPECT_GT(match.explained, 0.9);
+    }
+  }
+}
+
+TEST(StartLocate, FindsAScanFromItsPositionAndFromNothing) {
+  const Pose truth = truthIn(furnishedRoom());
+  const auto matcher = ScanMatcher::onto(roomMap(), {});
+  StartGuess guess;
+  MapMatch match = matcher->locate(scanIn(furnishedRoom()), guess);
+  expectFound(match, truth);
+  EXPECT_TRUE(match.searched);
+  guess.position_map = truth.position + Vec3(0.4, -0.3, 0.2);
+  expectFound(matcher->locate(scanIn(furnishedRoom()), guess), truth);
+  guess.up_body = truth.rotation.transpose() * Vec3::UnitZ();
+  expectFound(matcher->locate(scanIn(furnishedRoom()), guess), truth);
+  guess.position_map = truth.position + Vec3(0, 0, 20);
+  EXPECT_FALSE(matcher->locate(scanIn(furnishedRoom()), guess).accepted());
+}
+
+TEST(StartLocate, BadPoseWithoutLeaveToSearchIsRefused) {
+  StartGuess guess = roughly(truthIn(furnishedRoom()), Vec3(3, 0, 0), 0.78);
+  guess.search_around = false;
+  const auto matcher = ScanMatcher::onto(roomMap(), {});
+  EXPECT_FALSE(matcher->locate(scanIn(furnishedRoom()), guess).accepted());
+}
+
+// Half a turn leaves a bare room as it is.
+TEST(StartLocate, PlaceThatFitsTwiceIsAmbiguous) {
+  test::BoxWorld bare = test::emptyRoom();
+  bare.T_map_world = furnishedRoom().T_map_world;
+  const auto matcher = ScanMatcher::onto(mapOf(bare), {});
+  const MapMatch match = matcher->locate(scanIn(bare), {});
+  EXPECT_EQ(match.refusal, MatchRefusal::kAmbiguous);
+  EXPECT_GT(match.runner_up, 0.9);
+  // What is known of the heading decides.
+  expectFound(matcher->locate(scanIn(bare), roughly(truthIn(bare), Vec3(1, 1, 0), 0.5)),
+              truthIn(bare));
+}
+
+TEST(StartLocate, CorridorWithoutEndsIsAmbiguous) {
+  const test::BoxWorld world = test::corridor(0.3);
+  const MapMatch match = ScanMatcher::onto(mapOf(world), {})->locate(scanIn(world), {});
+  EXPECT_EQ(match.refusal, MatchRefusal::kAmbiguous) << toString(match.refusal);
+}
+
+test::BoxWorld mirrored(test::BoxWorld world) {
+  for (test::Box& box : world.boxes) {
+    const double low = box.low.y();
+    box.low.y() = -box.high.y();
+    box.high.y() = -low;
+  }
+  return world;
+}
+
+// The same room but for its furniture, which stands as in a mirror: several ways to lay it into the
+// map are as good.
+TEST(StartLocate, MirroredRoomIsRefused) {
+  const auto matcher = ScanMatcher::onto(roomMap(), {});
+  for (unsigned seed = 0; seed < 3; ++seed) {
+    const MapMatch match = matcher->locate(scanIn(mirrored(furnishedRoom()), seed), {});
+    EXPECT_FALSE(match.accepted()) << match.explained << ' ' << match.blocked;
+  }
+}
+
+TEST(StartLocate, RoomOfAnotherSizeIsRefused) {
+  test::BoxWorld longer = furnishedRoom(), higher = furnishedRoom();
+  longer.boxes[0] = {Vec3(-7, -4, 0), Vec3(5, 6, 3)};
+  higher.boxes[0] = {Vec3(-5, -4, 0), Vec3(5, 4, 4.5)};
+  const auto matcher = ScanMatcher::onto(roomMap(), {});
+  for (const test::BoxWorld& other : {longer, higher}) {
+    for (const StartGuess& guess :
+         {StartGuess{}, roughly(truthIn(furnishedRoom()), Vec3(0.5, 0, 0), 0.1),
+          roughly(truthIn(furnishedRoom()), Vec3(2, -1, 0), 0.7)}) {
+      const MapMatch match = matcher->locate(scanIn(other), guess);
+      EXPECT_FALSE(match.accepted()) << match.explained << ' ' << match.blocked;
+    }
+  }
+}
+
+TEST(StartLocate, SameBytesOnOneThreadAndTwo) {
+  const auto locate = [&](int threads) {
+    MatcherSettings settings;
+    settings.threads = threads;
+    return ScanMatcher::onto(roomMap(), settings)->locate(scanIn(furnishedRoom()), {});
+  };
+  const MapMatch one = locate(1), two = locate(2);
+  const Pose a = fromMrpt(one.T_map_body), b = fromMrpt(two.T_map_body);
+  EXPECT_EQ(std::memcmp(a.position.data(), b.position.data(), sizeof(Vec3)), 0);
+  EXPECT_EQ(std::memcmp(a.rotation.data(), b.rotation.data(), sizeof(Mat3)), 0);
+  EXPECT_EQ(one.explained, two.explained);
+  EXPECT_EQ(one.runner_up, two.runner_up);
+}
+
+TEST(StartLocate, ScanTooSmallIsRefused) {
+  const auto matcher = ScanMatcher::onto(roomMap(), {});
+  EXPECT_EQ(matcher->locate({}, {}).refusal, MatchRefusal::kNoScan);
+  Scan few = scanIn(furnishedRoom());
+  few.points_body.resize(20);
+  EXPECT_EQ(matcher->locate(few, {}).refusal, MatchRefusal::kTooFewPoints);
+}
+
+TEST(ScanLevel, IsToldByFloorAndWalls) {
+  for (const Vec3& tilt : {Vec3(0.15, 0, 0), Vec3(-0.1, 0.12, 0), Vec3(0, -0.2, 0)}) {
+    const test::BoxWorld room = furnishedRoom();
+    const Pose pose = room.T_map_world * Pose{Vec3(0, 0, 1.4), so3::exp(tilt)};
+    const auto up =
+        levelOfScan(simulateScan(room, pose, 20000, {0.02}, 30, 2).points_body, Vec3::UnitZ());
+    ASSERT_TRUE(up);
+    const Vec3 truth = so3::exp(-tilt) * Vec3::UnitZ();
+    EXPECT_LT(std::acos(std::min(1.0, up->dot(truth))), 0.01) << tilt.transpose();
+  }
+  EXPECT_FALSE(levelOfScan({{1, 2, 3}, {4, 5, 6}}, Vec3::UnitZ()));
+}
+
+}  // namespace
+}  // namespace paloc
