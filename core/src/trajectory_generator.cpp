@@ -6,6 +6,7 @@
 #include "paloc/core/measured_up.h"
 #include "paloc/core/mrpt_pose.h"
 #include "paloc/core/pose_flags.h"
+#include "paloc/core/predict_state.h"
 #include "paloc/core/start_prior.h"
 #include "paloc/core/trajectory_point.h"
 
@@ -18,18 +19,6 @@ constexpr double kFirstFrameInterval_s = 0.1;    // stands for the time since a 
 
 double rootOfTrace(const StateMatrix& covariance, int offset) {
   return std::sqrt(std::max(0.0, covariance.diagonal().segment<3>(offset).sum()));
-}
-
-State predictWithoutImu(const State& last, const OdometryFrame& frame, const Pose& motion,
-                        double dt_s) {
-  State predicted = last;
-  if (frame.continues) {
-    predicted.T_map_body = last.T_map_body * motion;
-    predicted.v_map = (predicted.T_map_body.position - last.T_map_body.position) / dt_s;
-  } else {
-    predicted.T_map_body.position += last.v_map * dt_s;
-  }
-  return predicted;
 }
 
 }  // namespace
@@ -48,9 +37,7 @@ TrajectoryGenerator::TrajectoryGenerator(const EstimatorSettings& settings,
 TrajectoryGenerator::~TrajectoryGenerator() = default;
 
 void TrajectoryGenerator::setInitialPose(const mrpt::poses::CPose3D& T_map_body) {
-  StartGuess guess;
-  guess.T_map_body = T_map_body;
-  start_.setGuess(guess);
+  start_.setGuess(StartGuess::near(T_map_body));
 }
 
 void TrajectoryGenerator::add(const FrontendEvent& event) {
@@ -148,6 +135,7 @@ void TrajectoryGenerator::dropStart() {
   history_.clear();
   online_.clear();
   smoother_ = FixedLagSmoother(settings_.smoother);
+  correlation_ = ScanCorrelation(settings_.map_correlation_distance_m);
   scans_ = KeptScans(settings_.rematch_memory_mb);
   refusals_in_a_row_ = 0;
   start_.drop();
@@ -206,9 +194,12 @@ MapMatch TrajectoryGenerator::matchScan(const OdometryFrame& frame, const State&
       std::max(kMinGuessSigmaRotation, rootOfTrace(covariance, tangent::kRotation));
   match =
       matcher_->match(*frame.scan, toMrpt(predicted.T_map_body), sigma_position, sigma_rotation);
-  if (!match.accepted() && refusals_in_a_row_ >= settings_.relocate_after_refusals) {
-    match = matcher_->locate(*frame.scan,
-                             {.T_map_body = toMrpt(predicted.T_map_body), .search_around = false});
+  StartGuess expected = StartGuess::near(toMrpt(predicted.T_map_body));
+  expected.search_around = false;
+  if (match.accepted() && start_.pending()) {
+    match = borneOut(*matcher_, *frame.scan, expected, match);
+  } else if (!match.accepted() && refusals_in_a_row_ >= settings_.relocate_after_refusals) {
+    match = matcher_->locate(*frame.scan, expected);
   }
   Mat6 of_prediction = covariance.topLeftCorner<6, 6>();
   of_prediction.topLeftCorner<3, 3>() +=

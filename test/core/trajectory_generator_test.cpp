@@ -262,11 +262,15 @@ class SearchMatcher : public TruthMatcher {
  public:
   using TruthMatcher::TruthMatcher;
   double right_from_s = 0;
-  int searches = 0;
+  int searches = 0, asked = 0;
+  int denied_at = -10;  // and at the time after, scans would be no start themselves
 
   MapMatch locate(const Scan& scan, const StartGuess& guess) override {
     MapMatch m = TruthMatcher::locate(scan, guess);
-    if (guess.T_map_body) return m;  // asked whether the scan bears out a start
+    if (guess.T_map_body) {  // asked whether the scan bears out a start
+      if (++asked == denied_at || asked == denied_at + 1) m.refusal = MatchRefusal::kNotVerified;
+      return m;
+    }
     ++searches;
     EXPECT_TRUE(guess.up_body);
     m.searched = true;
@@ -315,6 +319,15 @@ TEST(TrajectoryGenerator, DropsAStartBySearchThatLaterScansDeny) {
   EXPECT_EQ(result.diagnostics[0].match.refusal, MatchRefusal::kNotConfirmed);
   EXPECT_EQ(result.diagnostics.size(), 200u);
   EXPECT_EQ(result.online.size(), result.trajectory.size());
+}
+
+TEST(TrajectoryGenerator, ScansThatMatchButWouldBeNoStartDenyOneBySearch) {
+  SearchedRun searched;
+  searched.matcher->denied_at = 2;
+  const Result result = searched.run();
+  EXPECT_EQ(searched.matcher->searches, 2);
+  EXPECT_GT(result.frames_before_start, 3u);
+  EXPECT_LT(searched.simulation.rmse(result.trajectory), 0.3 * kMapSigma_m);
 }
 
 TEST(TrajectoryGenerator, RecordingTooShortToBearOutAStartHasNoTrajectory) {

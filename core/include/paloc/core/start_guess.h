@@ -11,6 +11,12 @@ namespace paloc {
 /// What is known of the body's pose when a scan is to be found in the map. Nothing set: it may be
 /// anywhere. A pose outdoes a position.
 struct StartGuess {
+  static StartGuess near(const mrpt::poses::CPose3D& T_map_body) {
+    StartGuess guess;
+    guess.T_map_body = T_map_body;
+    return guess;
+  }
+
   /// The pose, roughly.
   std::optional<mrpt::poses::CPose3D> T_map_body = {};
   /// The position alone (m, map frame): the heading may be any.
