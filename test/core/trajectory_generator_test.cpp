@@ -305,7 +305,7 @@ TEST(TrajectoryGenerator, BelievesAStartBySearchThatLaterScansBearOut) {
   EXPECT_EQ(searched.matcher->searches, 1);
   EXPECT_EQ(result.frames_before_start, 0u);
   EXPECT_EQ(result.trajectory.size(), 200u);
-  EXPECT_LT(searched.simulation.rmse(result.trajectory), 0.3 * kMapSigma_m);
+  EXPECT_LT(searched.simulation.rmse(result.trajectory), 0.5 * kMapSigma_m);
 }
 
 TEST(TrajectoryGenerator, DropsAStartBySearchThatLaterScansDeny) {
@@ -315,7 +315,7 @@ TEST(TrajectoryGenerator, DropsAStartBySearchThatLaterScansDeny) {
   EXPECT_EQ(searched.matcher->searches, 2);
   EXPECT_GT(result.frames_before_start, 5u);  // a second passes until the next search
   ASSERT_GT(result.trajectory.size(), 180u);
-  EXPECT_LT(searched.simulation.rmse(result.trajectory), 0.3 * kMapSigma_m);
+  EXPECT_LT(searched.simulation.rmse(result.trajectory), 0.5 * kMapSigma_m);
   EXPECT_EQ(result.diagnostics[0].match.refusal, MatchRefusal::kNotConfirmed);
   EXPECT_EQ(result.diagnostics.size(), 200u);
   EXPECT_EQ(result.online.size(), result.trajectory.size());
@@ -327,7 +327,7 @@ TEST(TrajectoryGenerator, ScansThatMatchButWouldBeNoStartDenyOneBySearch) {
   const Result result = searched.run();
   EXPECT_EQ(searched.matcher->searches, 2);
   EXPECT_GT(result.frames_before_start, 3u);
-  EXPECT_LT(searched.simulation.rmse(result.trajectory), 0.3 * kMapSigma_m);
+  EXPECT_LT(searched.simulation.rmse(result.trajectory), 0.5 * kMapSigma_m);
 }
 
 TEST(TrajectoryGenerator, RecordingTooShortToBearOutAStartHasNoTrajectory) {
