@@ -30,9 +30,14 @@ std::uint64_t binOf(const Point3f& p) {
   return std::uint64_t{1} << (voxelIndex(p.z, 1 / kBinM) % 64);
 }
 
+// One point a voxel, which grows until there are no more than `count`.
 std::vector<Vec3> evenly(const std::vector<Point3f>& points, double spacing_m, std::size_t count) {
+  constexpr double kGrowth = 1.2;
+  VoxelFilter filter;
+  std::vector<std::uint32_t> kept = filter.select(points, spacing_m);
+  while (kept.size() > count) kept = filter.select(points, spacing_m *= kGrowth);
   std::vector<Vec3> some;
-  for (const std::uint32_t i : VoxelFilter().selectAtMost(points, spacing_m, count)) {
+  for (const std::uint32_t i : kept) {
     const Point3f& p = points[i];
     some.emplace_back(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z));
   }

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "paloc/core/errors.h"
+#include "paloc/core/mrpt_pose.h"
 #include "paloc/tools/eval_covariance.h"
 #include "paloc/tools/replay.h"
 #include "paloc/tools/synth_recording.h"
@@ -62,7 +63,7 @@ class PlaceRun {
     ReplayOptions options;
     options.log_file = folder.path() / "recording.rawlog";
     options.map_file = folder.path() / "map.ply";
-    options.T_map_body_initial = truth.front().pose;
+    options.initial = StartGuess::near(toMrpt(truth.front().pose));
     const std::atomic<bool> interrupt{false};
     const ReplayOutcome outcome = replay(options, config, interrupt, [](const ReplayProgress&) {});
     if (outcome.result.trajectory.empty()) {
