@@ -136,6 +136,7 @@ void TrajectoryGenerator::dropStart() {
   online_.clear();
   smoother_ = FixedLagSmoother(settings_.smoother);
   correlation_ = ScanCorrelation(settings_.map_correlation_distance_m);
+  plausibility_ = MatchPlausibility(settings_);
   scans_ = KeptScans(settings_.rematch_memory_mb);
   refusals_in_a_row_ = 0;
   start_.drop();
