@@ -6,7 +6,9 @@
 namespace paloc {
 namespace {
 
-constexpr int kObjections = 2;  // scans against it that a pending start does not survive
+// A pending start does not survive so many scans against it, unless so many times more bear it out:
+// now and then a scan is refused at the right place as well, and a platform may rest for long.
+constexpr int kObjections = 2, kOutweighing = 4;
 constexpr double kSamePosition = 0.1, kSameRotation = 0.03;  // m, rad: two registrations agree
 
 }  // namespace
@@ -48,7 +50,7 @@ void StartTracker::tried(TimeNs t_ns, const StartGuess& guess, const MapMatch& m
 bool StartTracker::confirm(const MapMatch& match) {
   if (!pending_ || match.refusal == MatchRefusal::kNoScan) return true;
   ++(match.accepted() ? confirmations_ : objections_);
-  if (objections_ >= kObjections) return false;
+  if (objections_ >= kObjections && confirmations_ < kOutweighing * objections_) return false;
   // Scans from the same spot say the same again: some way must lie between.
   const Pose moved = motion_at_start_.inverse() * motion_since_first_;
   pending_ = !confirmedEnough() || moved.position.norm() < settings_.start_confirm_motion_m;

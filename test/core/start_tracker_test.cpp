@@ -129,6 +129,18 @@ TEST(StartTracker, TwoScansAgainstItDropAPendingStart) {
   EXPECT_TRUE(start.guessAt(20 * kFrame, std::nullopt));
 }
 
+TEST(StartTracker, FewScansAgainstManyDoNotDropAPendingStart) {
+  StartTracker start({});
+  start.setGuess({});
+  start.tried(0, {}, answer(MatchRefusal::kNone, true));
+  for (int f = 1; f <= 60; ++f) {
+    const bool against = f % 20 == 0;
+    EXPECT_TRUE(
+        start.confirm(answer(against ? MatchRefusal::kNotConverged : MatchRefusal::kNone, false)));
+  }
+  EXPECT_TRUE(start.pending());
+}
+
 // A platform that turns at 30 degrees per second, tilted by 0.2 rad.
 TEST(MeasuredUp, IsFeltWhileThePlatformTurns) {
   ImuBuffer imu;

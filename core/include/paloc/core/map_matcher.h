@@ -38,7 +38,7 @@ enum class MatchRefusal {
   kLargeStep,
   kNotConverged,
   kNotVerified,
-  kContradiction,  ///< to what IMU, odometry and earlier matches say
+  kContradiction,     ///< to what IMU, odometry and earlier matches say
   kNoPlaceFound,      ///< a search: the scan fits nowhere in the map
   kAmbiguous,         ///< a search: it fits more than one place, or one place in more than one way
   kSearchUnfinished,  ///< a search: given up before everything was looked at
