@@ -85,6 +85,15 @@ void addStart(Rows& s) {
            "Million look-ups in the grids after which a search is given up.");
 }
 
+template <typename Rows>
+void addDegeneracy(Rows& s) {
+  s.flag("degeneracy_handling", &S::degeneracy_handling,
+         "Scale the information of weak directions down, hold and leave out open ones; false "
+         "takes all that the equations claim, to see what happens.");
+  s.flag("spectrum", &S::spectrum,
+         "Compare the scan's own surfaces with the map's: D_e in diagnostics.csv, a figure only.");
+}
+
 }  // namespace
 
 std::vector<Setting> matcherSettings() {
@@ -95,6 +104,7 @@ std::vector<Setting> matcherSettings() {
   addGates(s);
   addLocate(s);
   addStart(s);
+  addDegeneracy(s);
   s.count("threads", &S::threads, {1, 64},
           "Threads that seek correspondences; no influence on the result.");
   return std::move(s).rows();

@@ -34,8 +34,9 @@ void setPoseFlags(const std::vector<bool>& has_map_factor, const EstimatorSettin
   for (std::size_t k = 0; k < points.size(); ++k) {
     TrajectoryPoint& point = points[k];
     const double variance = point.covariance.diagonal().head<3>().maxCoeff();
-    const bool all_full = std::all_of(point.directions.begin(), point.directions.end(),
-                                      [](DirectionClass c) { return c == DirectionClass::kFull; });
+    const bool all_full =
+        std::all_of(point.directions.begin(), point.directions.end(),
+                    [](const MatchDirection& d) { return d.cls == DirectionClass::kFull; });
     if (!(std::sqrt(variance) <= settings.lost_sigma_position_m)) {
       point.flag = PoseFlag::kLost;
     } else if (away_s[k] > settings.coasting_after_s) {

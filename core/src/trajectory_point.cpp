@@ -20,9 +20,7 @@ TrajectoryPoint trajectoryPoint(const NodeEstimate& estimate, const MapMatch& ma
   point.bias_acc_sigma = sigma(tangent::kBiasAcc);
   point.bias_gyro_sigma = sigma(tangent::kBiasGyro);
   point.gravity_sigma = sigma(tangent::kGravity);
-  for (std::size_t d = 0; d < point.directions.size(); ++d) {
-    point.directions[d] = match.accepted() ? match.directions[d].cls : DirectionClass::kNone;
-  }
+  if (match.accepted()) point.directions = match.directions;
   return point;
 }
 

@@ -316,7 +316,7 @@ Alignment Registration::align(const Pose& start, const AlignSchedule& schedule) 
     const AddTime time(alignment.timing.solve_s);
     scale = robustScale(kScaleSample);
     NormalEquations system = plainEquations(pose, scale);
-    if (look) anchors.hold(glimpse(pose, scale));
+    if (look && settings_.degeneracy_handling) anchors.hold(glimpse(pose, scale));
     anchors.addTo(system, differenceInBody(pose, start));
     Vec6 step;
     if (!solveStep(system, step)) break;

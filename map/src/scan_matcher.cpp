@@ -6,7 +6,9 @@
 
 #include "paloc/core/mrpt_pose.h"
 #include "paloc/map/scan_level.h"
+#include "paloc/map/scan_normals.h"
 #include "paloc/map/scan_thinning.h"
+#include "paloc/map/spectrum.h"
 #include "registration.h"
 #include "rough_start.h"
 #include "start_finder.h"
@@ -18,6 +20,9 @@ namespace {
 constexpr double kSurelyExplained = 0.98;  // of a scan: elsewhere it cannot fit much better
 constexpr double kNearM = 1, kNearRad = 0.25;
 constexpr double kOutsideShare = 0.1;  // of the points near any map point, below: outside the map
+// Of the matched points, so many are enough to compare two spectra, and so many neighbours for a
+// normal.
+constexpr std::size_t kSpectrumPoints = 150, kSpectrumNeighbours = 15;
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -44,6 +49,11 @@ class ScanMatcher::Work {
         .max_iterations = settings_.max_iterations};
     const Alignment alignment = registration_.align(toLocal(guess), schedule);
     fill(alignment, answer);
+    if (settings_.spectrum) {
+      const auto start = std::chrono::steady_clock::now();
+      answer.spectrum = spectrumOfRows();
+      timing_.spectrum_s = secondsSince(start);
+    }
     if (answer.accepted() && stepTooLarge(guess, answer, sigma_position, sigma_rotation)) {
       answer.refusal = MatchRefusal::kLargeStep;
     }
@@ -186,10 +196,31 @@ class ScanMatcher::Work {
       const ObservedDirections observed =
           observeDirections(registration_.rows(), alignment.spread_body, registration_.noise());
       answer.directions = observed.directions;
-      answer.information = informationInMap(observed.information, local.rotation);
-      answer.shared_spread = informationInMap(observed.shared_spread, local.rotation);
+      const bool handled = settings_.degeneracy_handling;
+      const Mat6 information =
+          handled ? observed.information : leastSquares(registration_.rows()).information;
+      const Mat6& spread = handled ? observed.shared_spread : alignment.spread_body;
+      answer.information = informationInMap(information, local.rotation);
+      answer.shared_spread = informationInMap(spread, local.rotation);
     }
     timing_.information_s += secondsSince(start);
+  }
+
+  // The scan's own surfaces against the map's, at some of the matched points, evenly.
+  double spectrumOfRows() const {
+    const std::vector<PlaneRow>& rows = registration_.rows();
+    const ScanNormals scan_normals(registration_.points());
+    const double radius_m = scan_normals.radiusFor(kSpectrumNeighbours);
+    const std::size_t step = (rows.size() + kSpectrumPoints - 1) / kSpectrumPoints;
+    std::vector<TwoNormals> points;
+    for (std::size_t k = 0; k < rows.size(); k += step) {
+      const Vec3& p = rows[k].point_body;
+      const Vec3 normal = scan_normals.at(
+          {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())},
+          radius_m);
+      if (!normal.isZero()) points.push_back({p, normal, rows[k].normal_body});
+    }
+    return spectrumDifference(points);
   }
 
   MatchRefusal gate(const Alignment& alignment, const MapMatch& answer) const {

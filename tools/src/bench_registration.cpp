@@ -121,7 +121,7 @@ ScanQuantiles quantilesOf(const std::vector<double>& values) {
 /// What was measured of one scan.
 struct CaseResult {
   double match_ms = 1e300, cpu_ms = 0, filter_ms = 0, association_ms = 0, solve_ms = 0,
-         information_ms = 0;
+         information_ms = 0, spectrum_ms = 0;
   MapMatch match;
 };
 
@@ -141,13 +141,15 @@ CaseResult registerOnce(ScanMatcher& matcher, const Case& one) {
   result.association_ms = 1e3 * timing.association_s;
   result.solve_ms = 1e3 * timing.solve_s;
   result.information_ms = 1e3 * timing.information_s;
-  result.match_ms = result.association_ms + result.solve_ms + result.information_ms;
+  result.spectrum_ms = 1e3 * timing.spectrum_s;
+  result.match_ms =
+      result.association_ms + result.solve_ms + result.information_ms + result.spectrum_ms;
   return result;
 }
 
 void summarize(const std::vector<Case>& cases, const std::vector<CaseResult>& results,
                RegistrationRun& run) {
-  std::vector<double> match, cpu, filter, association, solve, information, error, turn;
+  std::vector<double> match, cpu, filter, association, solve, information, spectrum, error, turn;
   const double share = 1 / static_cast<double>(cases.size());
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const CaseResult& r = results[i];
@@ -157,6 +159,7 @@ void summarize(const std::vector<Case>& cases, const std::vector<CaseResult>& re
     association.push_back(r.association_ms);
     solve.push_back(r.solve_ms);
     information.push_back(r.information_ms);
+    spectrum.push_back(r.spectrum_ms);
     run.points_in += share * static_cast<double>(cases[i].scan.points_body.size());
     run.points_used += share * r.match.points;
     run.matched += share * r.match.matched;
@@ -174,6 +177,7 @@ void summarize(const std::vector<Case>& cases, const std::vector<CaseResult>& re
   run.association_ms = quantilesOf(association);
   run.solve_ms = quantilesOf(solve);
   run.information_ms = quantilesOf(information);
+  run.spectrum_ms = quantilesOf(spectrum);
   run.error_m = quantilesOf(error);
   run.error_rad = quantilesOf(turn);
 }

@@ -6,6 +6,7 @@
 #include "paloc/core/trajectory_generator.h"
 #include "paloc/map/prior_map.h"
 #include "paloc/map/scan_matcher.h"
+#include "paloc/tools/direction_watch.h"
 #include "paloc/tools/event_source.h"
 #include "paloc/tools/scan_map.h"
 #include "paloc/tools/trajectory_stretches.h"
@@ -45,6 +46,7 @@ class Replay {
     return read_ahead_ ? read_ahead_->next() : source_.next();
   }
   void take(const EventBatch& batch);
+  void watchDirections();
   void report(const ReplayObserver& observer, const EventBatch& batch);
   void finish();
   std::vector<StageTimes> allStages() const;
@@ -60,7 +62,9 @@ class Replay {
   ScanMap scan_map_;
   std::chrono::steady_clock::time_point reading_since_;
   std::uint64_t frames_ = 0;
-  std::vector<std::string> map_notes_;  // not yet told
+  std::vector<std::string> untold_;  // of the map and its directions
+  DirectionWatch directions_;
+  TimeNs watched_ns_ = 0;  // the last frame whose directions were looked at
   ReplayOutcome outcome_;
 };
 
@@ -76,8 +80,8 @@ void Replay::loadMap(const ReplayObserver& observer) {
   outcome_.unused.add("point", options_.map_file.filename().string(), "not finite",
                       map_->statistics().nonfinite);
   const std::string& note = map_->statistics().side_file_note;
-  if (!note.empty()) map_notes_.push_back(note);
-  outcome_.notes = map_notes_;
+  if (!note.empty()) untold_.push_back(note);
+  outcome_.notes = untold_;
   outcome_.prior_map_sample = sampleOf(*map_);
   outcome_.prior_map_origin = map_->origin();
 }
@@ -92,18 +96,31 @@ void Replay::makeEstimator() {
 void Replay::take(const EventBatch& batch) {
   frames_ += batch.frames;
   for (const FrontendEvent& event : batch.events) {
-    if (const auto* frame = std::get_if<OdometryFrame>(&event)) scan_map_.add(*frame);
+    const auto* frame = std::get_if<OdometryFrame>(&event);
+    if (frame) scan_map_.add(*frame);
     const auto* sample = std::get_if<ImuSample>(&event);
     if (sample && options_.keep_imu) outcome_.imu.add(*sample);
     generator_->add(event);
+    if (frame) watchDirections();
   }
   outcome_.notes.insert(outcome_.notes.end(), batch.notes.begin(), batch.notes.end());
+}
+
+// Of frames that the generator took.
+void Replay::watchDirections() {
+  const FrameDiagnostics* last = generator_->lastFrame();
+  if (!last || last->t_ns == watched_ns_) return;
+  watched_ns_ = last->t_ns;
+  for (std::string& change : directions_.add(*last)) {
+    untold_.push_back(change);
+    outcome_.direction_changes.push_back(std::move(change));
+  }
 }
 
 void Replay::report(const ReplayObserver& observer, const EventBatch& batch) {
   if (!observer || (batch.frames == 0 && batch.notes.empty())) return;
   ReplayProgress progress;
-  progress.notes = std::exchange(map_notes_, {});
+  progress.notes = std::exchange(untold_, {});
   progress.notes.insert(progress.notes.end(), batch.notes.begin(), batch.notes.end());
   progress.share = batch.share;
   const double elapsed_s = secondsSince(reading_since_);

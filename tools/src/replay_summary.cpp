@@ -109,6 +109,7 @@ nlohmann::ordered_json summaryJson(const ReplayOutcome& outcome) {
         {"not_kept", result.rematched.not_kept}}},
       {"unused", unused},
       {"notes", outcome.notes},
+      {"direction_changes", outcome.direction_changes},
       {"problems", outcome.end.problems},
       {"damage", outcome.end.damage},
       {"interrupted", outcome.end.interrupted},

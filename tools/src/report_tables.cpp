@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 
+#include "paloc/core/direction_name.h"
 #include "paloc/tools/html_table.h"
 #include "paloc/tools/html_text.h"
 #include "paloc/tools/report_sections.h"
@@ -12,22 +13,6 @@ namespace {
 constexpr auto kNumber = HtmlTable::Align::kNumber;
 constexpr auto kText = HtmlTable::Align::kText;
 constexpr std::size_t kMostStretches = 200;
-
-// "along body x", "about body z (yaw)"; an axis that leans is named by all it leans to.
-std::string directionName(const Vec3& axis_body, bool rotation) {
-  static constexpr const char* kNames[] = {"x", "y", "z"};
-  static constexpr const char* kTurns[] = {" (roll)", " (pitch)", " (yaw)"};
-  std::string axes;
-  Eigen::Index largest = 0;
-  const double size = axis_body.cwiseAbs().maxCoeff(&largest);
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    if (!(std::abs(axis_body[i]) > 0.4)) continue;
-    axes += (axes.empty() ? "" : " and ") + std::string(kNames[i]);
-  }
-  if (axes.empty()) return rotation ? "a rotation" : "a position";
-  return (rotation ? "about body " : "along body ") + axes +
-         (rotation && size > 0.85 ? kTurns[largest] : "");
-}
 
 const FrameDiagnostics* frameAt(const std::vector<FrameDiagnostics>& frames, TimeNs t_ns) {
   const auto it = std::lower_bound(frames.begin(), frames.end(), t_ns,

@@ -1,7 +1,10 @@
 #include "paloc/tools/trajectory_csv.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
+#include "paloc/core/direction_name.h"
 #include "paloc/core/mrpt_pose.h"
 #include "paloc/core/seconds_text.h"
 
@@ -9,6 +12,12 @@ namespace paloc {
 namespace {
 
 constexpr const char* kTangentNames[] = {"x", "y", "z", "rx", "ry", "rz"};
+
+// Of six directions: class, name and standard deviation of each.
+constexpr const char* kDirectionHeader =
+    "direction_t1,direction_t2,direction_t3,direction_r1,direction_r2,direction_r3,"
+    "name_t1,name_t2,name_t3,name_r1,name_r2,name_r3,"
+    "sigma_t1_m,sigma_t2_m,sigma_t3_m,sigma_r1_rad,sigma_r2_rad,sigma_r3_rad";
 
 // A row of comma-separated values, built up from the left.
 class CsvRow {
@@ -18,6 +27,8 @@ class CsvRow {
     line_ += value;
     return *this;
   }
+  // What was not computed stays empty.
+  CsvRow& known(double value) { return std::isnan(value) ? text("") : number(value); }
   CsvRow& number(double value, const char* format = "%.9g") {
     char buffer[64];
     std::snprintf(buffer, sizeof buffer, format, value);
@@ -44,9 +55,30 @@ std::string trajectoryHeader() {
   for (const std::string& name : covarianceColumns()) header += ',' + name;
   header +=
       ",sigma_vx_mps,sigma_vy_mps,sigma_vz_mps,sigma_bax_mps2,sigma_bay_mps2,sigma_baz_mps2,"
-      "sigma_bgx_radps,sigma_bgy_radps,sigma_bgz_radps,flag,direction_t1,direction_t2,direction_t3,"
-      "direction_r1,direction_r2,direction_r3\n";
-  return header;
+      "sigma_bgx_radps,sigma_bgy_radps,sigma_bgz_radps,flag,";
+  return header + kDirectionHeader + '\n';
+}
+
+using Directions = std::array<MatchDirection, 6>;
+
+// Classes, names and standard deviations; a direction without an axis has neither name nor sigma.
+template <typename SigmaOf>
+void addDirections(const Directions& directions, const SigmaOf& sigmaOf, CsvRow& row) {
+  for (const MatchDirection& d : directions) row.text(toString(d.cls));
+  for (std::size_t k = 0; k < 6; ++k) row.text(directionName(directions[k].axis_body, k >= 3));
+  for (std::size_t k = 0; k < 6; ++k) {
+    row.known(directions[k].axis_body.isZero() ? std::nan("") : sigmaOf(k));
+  }
+}
+
+// Of the pose, along one of its directions: whoever it was that told it.
+double poseSigma(const TrajectoryPoint& point, const Mat3& R_map_body, std::size_t direction) {
+  const Vec3& axis_body = point.directions[direction].axis_body;
+  const bool rotation = direction >= 3;
+  const Vec3 axis = rotation ? axis_body : Vec3(R_map_body * axis_body);
+  const Eigen::Index at = rotation ? 3 : 0;
+  const Mat3 covariance = point.covariance.block<3, 3>(at, at);
+  return std::sqrt(std::max(0.0, axis.dot(covariance * axis)));
 }
 
 }  // namespace
@@ -95,7 +127,8 @@ std::string trajectoryCsv(const std::vector<TrajectoryPoint>& trajectory) {
     }
     row.vector(p.v_sigma).vector(p.bias_acc_sigma).vector(p.bias_gyro_sigma);
     row.text(toString(p.flag));
-    for (const DirectionClass cls : p.directions) row.text(toString(cls));
+    addDirections(
+        p.directions, [&](std::size_t k) { return poseSigma(p, pose.rotation, k); }, row);
     csv += row.take();
   }
   return csv;
@@ -105,7 +138,8 @@ std::string diagnosticsCsv(const std::vector<FrameDiagnostics>& diagnostics) {
   std::string csv =
       "scan_start_s,t_s,map_factor,points,matched,inliers,overlap,residual_rms_m,residual_median_m,"
       "iterations,step_x_m,step_y_m,step_z_m,step_rotation_rad,odometry_factor,imu_factor,at_rest,"
-      "repairs,direction_t1,direction_t2,direction_t3,direction_r1,direction_r2,direction_r3\n";
+      "repairs,";
+  csv += std::string(kDirectionHeader) + ",spectrum_de\n";
   for (const FrameDiagnostics& d : diagnostics) {
     const MapMatch& m = d.match;
     CsvRow row;
@@ -118,7 +152,9 @@ std::string diagnosticsCsv(const std::vector<FrameDiagnostics>& diagnostics) {
       row.text(used ? "1" : "0");
     }
     row.text(std::to_string(d.repairs));
-    for (const MatchDirection& direction : m.directions) row.text(toString(direction.cls));
+    addDirections(
+        m.directions, [&](std::size_t k) { return m.directions[k].sigma; }, row);
+    row.known(m.spectrum);
     csv += row.take();
   }
   return csv;

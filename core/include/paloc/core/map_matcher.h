@@ -3,6 +3,7 @@
 #include <mrpt/poses/CPose3D.h>
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -60,6 +61,10 @@ struct MapMatch {
   /// the units of the information, and zero where that is.
   Mat6 shared_spread = Mat6::Zero();
   std::array<MatchDirection, 6> directions;  ///< 0..2 position, 3..5 rotation
+
+  /// How much the scan's own surfaces disagree with the map's on what is fixed (D_e, without unit,
+  /// see spectrumDifference()); NaN where it was not computed. It is reported and decides nothing.
+  double spectrum = std::numeric_limits<double>::quiet_NaN();
 
   int points = 0;                ///< points of the filtered scan that were tried
   int matched = 0;               ///< points that found a plane of the map

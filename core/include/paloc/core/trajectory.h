@@ -41,7 +41,8 @@ struct TrajectoryPoint {
   Vec3 bias_gyro_sigma = Vec3::Zero();  ///< rad/s
   Vec3 gravity_sigma = Vec3::Zero();    ///< of gravity_map's components
   PoseFlag flag = PoseFlag::kLost;
-  std::array<DirectionClass, 6> directions{};  ///< of its map factor; none where there is none
+  /// Of its map factor; where there is none, all of class none, without axis.
+  std::array<MatchDirection, 6> directions{};
 };
 
 /// What happened at one odometry frame: a row of diagnostics.csv.

@@ -35,6 +35,8 @@ struct MatcherSettings {
       0.77;  ///< share of points on the map's surfaces, less that of rays through them
   double start_min_lead = 0.06;      ///< of the best place before the second-best, in that figure
   double start_max_mlookups = 4000;  ///< effort before a search is given up, in million look-ups
+  bool degeneracy_handling = true;  ///< weak directions are scaled down, open ones held and cut off
+  bool spectrum = true;             ///< compute MapMatch::spectrum
   int threads = 2;
 };
 

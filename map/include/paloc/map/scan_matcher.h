@@ -36,6 +36,7 @@ class PALOC_EXPORT ScanMatcher : public MapMatcher {
     double association_s = 0;  ///< points to planes, over all iterations
     double solve_s = 0;        ///< residuals, weights, normal equations, steps
     double information_s = 0;  ///< patches of shared errors, directions, covariance
+    double spectrum_s = 0;     ///< of the scan's own surfaces against the map's
   };
   const Timing& lastTiming() const;
 

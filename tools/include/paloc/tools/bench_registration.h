@@ -38,9 +38,9 @@ struct RegistrationRun {
   int points = 0, threads = 0;
   std::size_t scans = 0, accepted = 0;
   double points_in = 0, points_used = 0, iterations = 0, matched = 0;  ///< means
-  ScanQuantiles match_ms;  ///< association, solve and information together
+  ScanQuantiles match_ms;  ///< association, solve, information and spectrum together
   ScanQuantiles cpu_ms;    ///< filter and match on the processor, all threads together
-  ScanQuantiles filter_ms, association_ms, solve_ms, information_ms;
+  ScanQuantiles filter_ms, association_ms, solve_ms, information_ms, spectrum_ms;
   ScanQuantiles error_m, error_rad;              ///< of the accepted
   double load_s = 0;                             ///< from the file to the ready map, all included
   double sort_s = 0, index_s = 0, planes_s = 0;  ///< parts of it

@@ -49,6 +49,8 @@ struct ReplayOutcome {
   Result result;
   UnusedCounts unused;
   std::vector<std::string> notes;  ///< sentences for the user, in the order they came up
+  /// When a direction was lost and came back (see DirectionWatch), as matched during the run.
+  std::vector<std::string> direction_changes;
   RunEnd end;
   ImuBuffer imu;  ///< all samples, if they were to be kept
   PointCloud map_of_scans;
