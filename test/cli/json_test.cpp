@@ -112,6 +112,7 @@ std::map<std::string, Words> soundCalls(const test::TempDir& dir) {
       {"bench start",
        {"bench", "start", "--scene", "room", "--sensor", "vlp-16", "--places", "1", "--wrong",
         "0"}},
+      {"bench corridor", {"bench", "corridor", "--sensor", "vlp-16", "--length", "5"}},
       {"bench registration",
        {"bench", "registration", "--map-points", "20000", "--places", "2", "--threads", "1"}},
   };

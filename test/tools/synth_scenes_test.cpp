@@ -68,11 +68,12 @@ INSTANTIATE_TEST_SUITE_P(Synth, EveryScene, testing::ValuesIn(sceneNames()), [](
 });
 
 TEST(SynthScenes, NothingEndsTheViewAlongTheCorridor) {
-  for (const double yaw_deg : {0.0, 30.0, 45.0}) {
-    const Scene scene = makeCorridor(yaw_deg);
+  const std::pair<double, double> corridors[] = {{0, 76}, {30, 76}, {45, 76}, {45, 36}};
+  for (const auto& [yaw_deg, length_m] : corridors) {
+    const Scene scene = makeCorridor(yaw_deg, length_m);
     const Vec3 axis = so3::exp(Vec3(0, 0, yaw_deg * kDegree)) * Vec3::UnitX();
     const Vec3 left = Vec3::UnitZ().cross(axis);
-    for (double x = 9; x <= 67; x += 4) {
+    for (double x = kCorridorMouthM; x <= length_m - kCorridorMouthM; x += 4) {
       for (const RayHit& hit :
            castFrom(scene, x * axis + 0.4 * left + 1.35 * Vec3::UnitZ(), allAround())) {
         if (!hit.valid()) continue;

@@ -8,6 +8,7 @@
 namespace paloc {
 
 // They register themselves below `bench`.
+std::unique_ptr<Command> makeBenchCorridorCommand();
 std::unique_ptr<Command> makeBenchCovarianceCommand();
 std::unique_ptr<Command> makeBenchDegeneracyCommand();
 std::unique_ptr<Command> makeBenchEnduranceCommand();

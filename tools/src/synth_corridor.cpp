@@ -1,23 +1,25 @@
-#include <array>
+#include <cmath>
 
+#include "paloc/core/text.h"
 #include "paloc/tools/synth_furniture.h"
 #include "paloc/tools/synth_scene.h"
 
-// The corridor's own frame: x along its axis from 0 to 76 m, y to the left, its middle at y = 0. A
-// room stands at either end, open on its far side over the whole height: what is seen from the
+// The corridor's own frame: x along its axis from 0 to its length, y to the left, its middle at y =
+// 0. A room stands at either end, open on its far side over the whole height: what is seen from the
 // corridor through its ends is floor, ceiling and side walls, none of which fixes its axis.
 namespace paloc::synth {
 namespace {
 
-constexpr double kLength = 76, kHalfWidth = 1.2, kHeight = 2.6, kThickness = 0.2;
+constexpr double kHalfWidth = 1.2, kHeight = 2.6, kThickness = 0.2;
 constexpr double kRoomDepth = 7, kRoomHalfWidth = 4, kRoomHeight = 3.2, kGateHalfWidth = 2.5;
+constexpr double kStationEveryM = 8;
 constexpr float kPlaster = 0.6F, kFloor = 0.3F;
 
-void addCorridor(MeshBuilder& b, const Pose& T) {
-  b.box(T, Vec3(0, -kHalfWidth, -0.2), Vec3(kLength, kHalfWidth, 0), kFloor);
-  b.box(T, Vec3(0, -kHalfWidth, kHeight), Vec3(kLength, kHalfWidth, kHeight + 0.2), kPlaster);
+void addCorridor(MeshBuilder& b, const Pose& T, double length_m) {
+  b.box(T, Vec3(0, -kHalfWidth, -0.2), Vec3(length_m, kHalfWidth, 0), kFloor);
+  b.box(T, Vec3(0, -kHalfWidth, kHeight), Vec3(length_m, kHalfWidth, kHeight + 0.2), kPlaster);
   for (const double side : {-1.0, 1.0}) {
-    b.wall(T * onFloor(0, side * (kHalfWidth + kThickness / 2)), kLength, kThickness, kHeight, {},
+    b.wall(T * onFloor(0, side * (kHalfWidth + kThickness / 2)), length_m, kThickness, kHeight, {},
            kPlaster);
   }
 }
@@ -49,38 +51,38 @@ void addRoom(MeshBuilder& b, const Pose& T) {
 
 }  // namespace
 
-Scene makeCorridor(double yaw_deg) {
+Scene makeCorridor(double yaw_deg, double length_m) {
   const Pose T_scene_corridor = onFloor(0, 0, yaw_deg);
   MeshBuilder b;
-  addCorridor(b, T_scene_corridor);
+  addCorridor(b, T_scene_corridor, length_m);
   addRoom(b, T_scene_corridor * onFloor(0, 0, 180));
-  addRoom(b, T_scene_corridor * onFloor(kLength, 0));
+  addRoom(b, T_scene_corridor * onFloor(length_m, 0));
   Scene scene;
-  scene.description = "a bare corridor, 76 x 2.4 x 2.6 m, between two furnished rooms";
+  scene.description = text("a bare corridor, ", std::lround(length_m),
+                           " x 2.4 x 2.6 m, between two furnished rooms");
   scene.mesh = b.take();
-  constexpr double kEnd = kLength;
   for (const Vec3& p : std::initializer_list<Vec3>{{-5.2, 1.2, 0},
                                                    {-5.2, -1.2, 0},
                                                    {-2, -1, 0},
                                                    {0.5, -0.3, 0},
-                                                   {kEnd - 0.5, -0.3, 0},
-                                                   {kEnd + 2, -1, 0},
-                                                   {kEnd + 5.2, -1.2, 0},
-                                                   {kEnd + 5.2, 1.2, 0},
-                                                   {kEnd + 2, 1, 0},
-                                                   {kEnd - 0.5, 0.3, 0},
+                                                   {length_m - 0.5, -0.3, 0},
+                                                   {length_m + 2, -1, 0},
+                                                   {length_m + 5.2, -1.2, 0},
+                                                   {length_m + 5.2, 1.2, 0},
+                                                   {length_m + 2, 1, 0},
+                                                   {length_m - 0.5, 0.3, 0},
                                                    {0.5, 0.3, 0},
                                                    {-2, 1, 0}}) {
     scene.route.push_back(T_scene_corridor * p);
   }
-  for (const double x : {-4.0, kEnd + 4.0}) {
+  for (const double x : {-4.0, length_m + 4.0}) {
     for (const double y : {-1.5, 1.5}) {
       scene.survey_stations.push_back(T_scene_corridor * Vec3(x, y, 1.6));
     }
   }
-  constexpr int kStations = 10;
-  for (int i = 0; i < kStations; ++i) {
-    const double x = kLength * (i + 0.5) / kStations;
+  const int stations = static_cast<int>(std::ceil(length_m / kStationEveryM));
+  for (int i = 0; i < stations; ++i) {
+    const double x = length_m * (i + 0.5) / stations;
     scene.survey_stations.push_back(T_scene_corridor * Vec3(x, 0.1, 1.5));
   }
   return scene;

@@ -32,10 +32,12 @@ Scene makeBuilding();
 /// A furnished room, 8 x 6 x 3 m.
 Scene makeRoom();
 
-/// A bare corridor, 76 x 2.4 x 2.6 m, between two furnished rooms whose far sides stand open, so
-/// that from its inside nothing ends the view: its axis is free over some 60 m. The axis is turned
-/// by `yaw_deg` against the scene's x.
-Scene makeCorridor(double yaw_deg);
+/// A bare corridor, 2.4 m wide and 2.6 m high, between two furnished rooms whose far sides stand
+/// open, so that from its inside nothing ends the view: its axis is free from `kCorridorMouthM` on
+/// to as far before its end. It leads from the scene's origin along +x, turned by `yaw_deg` about
+/// z. The route goes through it to the far room and back.
+Scene makeCorridor(double yaw_deg, double length_m = 76);
+constexpr double kCorridorMouthM = 8;
 
 /// A smooth, bare tunnel, 100 m long, open at both ends: a round bore of 3.2 m radius over a road.
 Scene makeTunnel();

@@ -1,0 +1,195 @@
+#include "paloc/tools/bench_corridor.h"
+
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "paloc/core/mrpt_pose.h"
+#include "paloc/core/trajectory_generator.h"
+#include "paloc/frontends/mrpt_time.h"
+#include "paloc/frontends/odometry_frontend.h"
+#include "paloc/map/scan_matcher.h"
+#include "paloc/tools/motion_observations.h"
+#include "paloc/tools/synth_scene.h"
+#include "paloc/tools/synth_timeline.h"
+
+namespace paloc {
+namespace {
+
+using synth::kCorridorMouthM;
+
+constexpr std::size_t kScansAtOnce = 8;
+constexpr double kInRoomsM = 13;  // of the way, before and after the corridor
+constexpr double kSpeedMps = 1.05, kStartAndEndS = 6, kPauseS = 4.2, kPauseEveryS = 60;
+
+// Of a walk that ends in the far room (see makeWalk: it rests at both ends and once a minute).
+double walkSeconds(double corridor_m) {
+  const double moving_s = (corridor_m + kInRoomsM) / kSpeedMps + kStartAndEndS;
+  const double pauses = std::max(1.0, std::round(moving_s / kPauseEveryS));
+  return moving_s + kPauseS * pauses;
+}
+
+synth::SynthSettings synthSettings(const BenchCorridorSettings& settings, double corridor_m) {
+  synth::SynthSettings synth;
+  synth.duration_s = walkSeconds(corridor_m);
+  synth.seed = settings.seed;
+  synth.odometry.drift = 0;
+  synth.odometry.scale = settings.odometry_scale;
+  return synth;
+}
+
+/// An estimator, and what it said of every frame when that came.
+class Walker {
+ public:
+  Walker(const Config& config, bool degeneracy_handling, const std::shared_ptr<const PriorMap>& map,
+         const Pose& start) {
+    run_.degeneracy_handling = degeneracy_handling;
+    MatcherSettings matcher = config.matcher;
+    matcher.degeneracy_handling = degeneracy_handling;
+    generator_ =
+        std::make_unique<TrajectoryGenerator>(config.estimator, ScanMatcher::onto(map, matcher));
+    generator_->setInitialPose(toMrpt(start));
+  }
+
+  void add(const FrontendEvent& event, const synth::Motion& motion) {
+    generator_->add(event);
+    const auto newest =
+        std::holds_alternative<OdometryFrame>(event) ? generator_->newest() : std::nullopt;
+    if (!newest || newest->t_ns != std::get<OdometryFrame>(event).t_ns) return;
+    run_.online_poses.push_back({newest->t_ns, motion.at(newest->t_ns).T_map_body,
+                                 newest->state.T_map_body, newest->covariance.topLeftCorner<6, 6>(),
+                                 PoseFlag::kGood});
+  }
+
+  CorridorRun finish(const synth::Motion& motion, const FreeStretch& stretch) {
+    const Result result = generator_->finish();
+    for (const TrajectoryPoint& p : result.trajectory) {
+      run_.batch_poses.push_back(
+          {p.t_ns, motion.at(p.t_ns).T_map_body, fromMrpt(p.T_map_body), p.covariance, p.flag});
+    }
+    // The flags belong to the scans: they are told of both.
+    for (std::size_t k = 0; k < std::min(run_.online_poses.size(), result.online.size()); ++k) {
+      run_.online_poses[k].flag = result.online[k].flag;
+    }
+    for (const FrameDiagnostics& frame : result.diagnostics) {
+      ++(frame.match.accepted() ? run_.map_factors : run_.refused);
+    }
+    run_.online = corridorFigures(run_.online_poses, stretch);
+    run_.batch = corridorFigures(run_.batch_poses, stretch);
+    return std::move(run_);
+  }
+
+ private:
+  std::unique_ptr<TrajectoryGenerator> generator_;
+  CorridorRun run_;
+};
+
+/// The recording that nobody stores: observations in order of their stamps, through the front-end
+/// into both estimators.
+class Recording {
+ public:
+  Recording(const synth::Timeline& timeline, const FrontendSettings& settings,
+            std::array<Walker*, 2> walkers)
+      : timeline_(timeline),
+        frontend_(OdometryFrontend::create("recorded", settings)),
+        walkers_(walkers) {}
+
+  void add(const obs::CObservationLidarScan& scan) {
+    addMotionUntil(fromMrptTime(scan.timestamp));
+    feed(scan);
+  }
+  void finish() {
+    addMotionUntil(std::numeric_limits<TimeNs>::max());
+    frontend_->finish();
+    drain();
+  }
+
+ private:
+  void addMotionUntil(TimeNs end_ns) {
+    for (;;) {
+      const TimeNs imu = imu_ < timeline_.imu.size() ? timeline_.imu[imu_].sample.t_ns : end_ns;
+      const TimeNs odometry =
+          odometry_ < timeline_.odometry.size() ? timeline_.odometry[odometry_].t_ns : end_ns;
+      if (imu >= end_ns && odometry >= end_ns) return;
+      if (imu <= odometry) {
+        feed(imuObservation(timeline_.imu[imu_++].sample, "imu"));
+      } else {
+        feed(poseObservation(timeline_.odometry[odometry_++], "odometry"));
+      }
+    }
+  }
+  void feed(const mrpt::obs::CObservation& observation) {
+    frontend_->add(observation);
+    drain();
+  }
+  void drain() {
+    while (const auto event = frontend_->next()) {
+      for (Walker* walker : walkers_) walker->add(*event, timeline_.motion);
+    }
+  }
+
+  const synth::Timeline& timeline_;
+  OdometryFrontend::Ptr frontend_;
+  std::array<Walker*, 2> walkers_;
+  std::size_t imu_ = 0, odometry_ = 0;  // the next to feed
+};
+
+// Some scans at a time, on all threads.
+void recordScans(const synth::Timeline& timeline, const synth::LidarSimulator& lidar,
+                 Recording& recording, const BenchCorridorProgress& progress) {
+  std::vector<obs::CObservationLidarScan::Ptr> scans(kScansAtOnce);
+  for (std::size_t first = 0; first < timeline.scans; first += kScansAtOnce) {
+    const std::size_t count = std::min(kScansAtOnce, timeline.scans - first);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      scans[i] = lidar.scan(first + i, timeline.scanStart(first + i));
+    });
+    for (std::size_t i = 0; i < count; ++i) recording.add(*scans[i]);
+    progress(static_cast<double>(first + count) / static_cast<double>(timeline.scans));
+  }
+  recording.finish();
+}
+
+std::vector<Pose> posesOf(const std::vector<StampedPose>& stamped) {
+  std::vector<Pose> poses;
+  for (const StampedPose& s : stamped) poses.push_back(s.pose);
+  return poses;
+}
+
+}  // namespace
+
+BenchCorridorResult benchCorridor(const BenchCorridorSettings& settings, const Config& config,
+                                  const BenchCorridorProgress& progress) {
+  const synth::SensorModel sensor = synth::makeSensor(settings.sensor);
+  const double corridor_m = settings.free_m + 2 * kCorridorMouthM;
+  const synth::Scene scene = synth::makeCorridor(settings.angle_deg, corridor_m);
+  const synth::SynthSettings synth = synthSettings(settings, corridor_m);
+  const synth::Timeline timeline = synth::makeTimeline(synth, scene.route, sensor);
+  const synth::Raycaster raycaster(scene.mesh);
+  const synth::Surroundings surroundings(raycaster);
+  const synth::LidarSimulator lidar(sensor, synth.T_body_lidar, scene.mesh, surroundings,
+                                    timeline.motion, settings.seed);
+  Config noisy = config;
+  noisy.matcher.range_noise_m = sensor.range_noise_m;
+  const auto map = PriorMap::build(
+      synth::survey(settings.survey, scene.mesh, raycaster, scene.survey_stations, settings.seed),
+      noisy.map, "corridor");
+
+  BenchCorridorResult result;
+  result.settings = settings;
+  result.scans = timeline.scans;
+  const double yaw = settings.angle_deg * std::numbers::pi / 180;
+  result.stretch = {so3::exp(Vec3(0, 0, yaw)) * Vec3::UnitX(), kCorridorMouthM,
+                    corridor_m - kCorridorMouthM};
+  result.odometry_drift_m =
+      odometryDrift(posesOf(timeline.truth), posesOf(timeline.odometry), result.stretch);
+  const Pose start = timeline.truth.front().pose;
+  Walker handled(noisy, true, map, start), unhandled(noisy, false, map, start);
+  Recording recording(timeline, noisy.frontend, {&handled, &unhandled});
+  recordScans(timeline, lidar, recording, progress);
+  result.handled = handled.finish(timeline.motion, result.stretch);
+  result.unhandled = unhandled.finish(timeline.motion, result.stretch);
+  return result;
+}
+
+}  // namespace paloc
