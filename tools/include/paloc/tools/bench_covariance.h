@@ -18,7 +18,7 @@ struct BenchCovarianceSettings {
   std::string sensor = "vlp-16";
   unsigned seeds = 50;
   std::uint64_t first_seed = 1;
-  double duration_s = 20;
+  double duration_s = 40;
   double map_bias_m = 0.005;  ///< of whole surfaces, one sigma; configured as plane_bias_m
 };
 
