@@ -86,13 +86,19 @@ void updateFixedLag(benchmark::State& state) {
 }
 BENCHMARK(updateFixedLag)->Arg(5)->Arg(20)->Unit(benchmark::kMicrosecond);
 
-void newestCovariance(benchmark::State& state) {
+// Before the first node leaves it.
+FixedLagSmoother fullWindow(double lag_s) {
   SmootherSettings settings;
-  settings.lag_s = static_cast<double>(state.range(0));
+  settings.lag_s = lag_s;
   FixedLagSmoother smoother(settings);
-  for (ChainNode& node : chainOf(static_cast<std::size_t>(settings.lag_s / kNode_s))) {
+  for (ChainNode& node : chainOf(static_cast<std::size_t>(lag_s / kNode_s))) {
     smoother.add(std::move(node));
   }
+  return smoother;
+}
+
+void newestCovariance(benchmark::State& state) {
+  const FixedLagSmoother smoother = fullWindow(static_cast<double>(state.range(0)));
   for (auto _ : state) {
     const NodeEstimate newest = smoother.newest();
     benchmark::DoNotOptimize(newest.covariance(0, 0));
@@ -101,12 +107,7 @@ void newestCovariance(benchmark::State& state) {
 BENCHMARK(newestCovariance)->Arg(5)->Arg(20)->Unit(benchmark::kMicrosecond);
 
 void windowCovariances(benchmark::State& state) {
-  SmootherSettings settings;
-  settings.lag_s = static_cast<double>(state.range(0));
-  FixedLagSmoother smoother(settings);
-  for (ChainNode& node : chainOf(static_cast<std::size_t>(settings.lag_s / kNode_s))) {
-    smoother.add(std::move(node));
-  }
+  const FixedLagSmoother smoother = fullWindow(static_cast<double>(state.range(0)));
   for (auto _ : state) {
     const std::vector<NodeEstimate> window = smoother.window(true);
     benchmark::DoNotOptimize(window.data());

@@ -1,7 +1,5 @@
 #include "paloc/tools/bench_covariance.h"
 
-#include <unistd.h>
-
 #include <atomic>
 #include <filesystem>
 
@@ -10,32 +8,12 @@
 #include "paloc/tools/eval_covariance.h"
 #include "paloc/tools/replay.h"
 #include "paloc/tools/synth_recording.h"
+#include "temporary_folder.h"
 
 namespace paloc {
 namespace {
 
 constexpr double kSameStamp_s = 1e-3;
-
-/// A folder that is gone when the object is.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "paloc-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw IoError(name + ": a temporary folder cannot be made");
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 synth::SynthSettings synthSettings(const BenchCovarianceSettings& settings,
                                    const std::string& place, std::uint64_t seed) {

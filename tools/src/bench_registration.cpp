@@ -20,6 +20,7 @@
 #include "paloc/tools/synth_random.h"
 #include "paloc/tools/synth_raycaster.h"
 #include "paloc/tools/synth_sensor.h"
+#include "temporary_folder.h"
 
 namespace paloc {
 namespace {
@@ -30,26 +31,6 @@ constexpr double kDegree = std::numbers::pi / 180;
 struct Case {
   Scan scan;
   Pose truth, guess;
-};
-
-/// A folder for the maps of a run, removed with the object.
-class WorkFolder {
- public:
-  WorkFolder() {
-    std::string path = (std::filesystem::temp_directory_path() / "paloc_bench_XXXXXX").string();
-    if (mkdtemp(path.data()) == nullptr) throw IoError(path + ": cannot be made");
-    path_ = path;
-  }
-  ~WorkFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  WorkFolder(const WorkFolder&) = delete;
-  WorkFolder& operator=(const WorkFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
 };
 
 Vec3 anyDirection(synth::RandomStream& random) {
@@ -242,7 +223,7 @@ std::vector<RegistrationRun> benchRegistration(const BenchRegistrationSettings& 
   }
   Config noisy = config;
   noisy.matcher.range_noise_m = settings.range_noise_m;
-  const WorkFolder folder;
+  const TemporaryFolder folder;
   for (const std::size_t map_points : settings.map_points) {
     const double surface_m2 =
         static_cast<double>(map_points) * settings.spacing_m * settings.spacing_m;
