@@ -10,9 +10,9 @@
 #include "paloc/frontends/mrpt_time.h"
 #include "paloc/frontends/odometry_frontend.h"
 #include "paloc/map/scan_matcher.h"
-#include "paloc/tools/motion_observations.h"
 #include "paloc/tools/synth_scene.h"
 #include "paloc/tools/synth_timeline.h"
+#include "timeline_feed.h"
 
 namespace paloc {
 namespace {
@@ -92,6 +92,7 @@ class Recording {
   Recording(const synth::Timeline& timeline, const FrontendSettings& settings,
             std::array<Walker*, 2> walkers)
       : timeline_(timeline),
+        motion_(timeline),
         frontend_(OdometryFrontend::create("recorded", settings)),
         walkers_(walkers) {}
 
@@ -107,17 +108,7 @@ class Recording {
 
  private:
   void addMotionUntil(TimeNs end_ns) {
-    for (;;) {
-      const TimeNs imu = imu_ < timeline_.imu.size() ? timeline_.imu[imu_].sample.t_ns : end_ns;
-      const TimeNs odometry =
-          odometry_ < timeline_.odometry.size() ? timeline_.odometry[odometry_].t_ns : end_ns;
-      if (imu >= end_ns && odometry >= end_ns) return;
-      if (imu <= odometry) {
-        feed(imuObservation(timeline_.imu[imu_++].sample, "imu"));
-      } else {
-        feed(poseObservation(timeline_.odometry[odometry_++], "odometry"));
-      }
-    }
+    motion_.until(end_ns, [&](const auto& observation) { feed(observation); });
   }
   void feed(const mrpt::obs::CObservation& observation) {
     frontend_->add(observation);
@@ -130,9 +121,9 @@ class Recording {
   }
 
   const synth::Timeline& timeline_;
+  synth::TimelineFeed motion_;
   OdometryFrontend::Ptr frontend_;
   std::array<Walker*, 2> walkers_;
-  std::size_t imu_ = 0, odometry_ = 0;  // the next to feed
 };
 
 // Some scans at a time, on all threads.

@@ -22,6 +22,7 @@
 #include "paloc/tools/synth_sensor.h"
 #include "paloc/tools/synth_timeline.h"
 #include "paloc/tools/synth_writers.h"
+#include "timeline_feed.h"
 
 namespace paloc::synth {
 namespace {
@@ -33,7 +34,7 @@ constexpr double kSurveyShare = 0.2;  // of the time, roughly
 class OrderedRecording {
  public:
   OrderedRecording(const std::filesystem::path& file, const Timeline& timeline, bool gzip)
-      : timeline_(timeline),
+      : feed_(timeline),
         writer_(file, gzip ? RawlogWriter::Compression::kGzip : RawlogWriter::Compression::kNone) {}
 
   void writeScan(const obs::CObservationLidarScan& scan) {
@@ -47,22 +48,11 @@ class OrderedRecording {
 
  private:
   void writeUntil(TimeNs end_ns) {
-    for (;;) {
-      const TimeNs imu = imu_ < timeline_.imu.size() ? timeline_.imu[imu_].sample.t_ns : end_ns;
-      const TimeNs odometry =
-          odometry_ < timeline_.odometry.size() ? timeline_.odometry[odometry_].t_ns : end_ns;
-      if (imu >= end_ns && odometry >= end_ns) return;
-      if (imu <= odometry) {
-        writer_.write(imuObservation(timeline_.imu[imu_++].sample, "imu"));
-      } else {
-        writer_.write(poseObservation(timeline_.odometry[odometry_++], "odometry"));
-      }
-    }
+    feed_.until(end_ns, [&](const auto& observation) { writer_.write(observation); });
   }
 
-  const Timeline& timeline_;
+  TimelineFeed feed_;
   RawlogWriter writer_;
-  std::size_t imu_ = 0, odometry_ = 0;  // the next to write
 };
 
 /// Simulates the scans on all threads, and writes them in order as they are ready; a few at a time
