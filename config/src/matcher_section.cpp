@@ -8,7 +8,8 @@ using S = MatcherSettings;
 template <typename Rows>
 void addPointsAndDistances(Rows& s) {
   s.count("max_points", &S::max_points, {100, 1000000},
-          "Points of a scan kept at most, spread evenly over the surfaces.");
+          "Points of a scan at most, spread evenly over the surfaces, each the mean of the "
+          "returns about it.");
   s.number("max_distance_m", &S::max_distance_m, "m", {0.01, 10},
            "Largest distance of a point to its map point in the first two iterations.");
   s.number("fine_distance_m", &S::fine_distance_m, "m", {0.01, 10},

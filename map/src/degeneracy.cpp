@@ -45,10 +45,10 @@ Mat3 schurComplement(const Mat6& information, int own) {
 // give is added to the block that is inverted: else a direction that nothing fixes, the axis of a
 // corridor, would follow any rotation by metres.
 Mat3 followingMotion(std::span<const PlaneRow> rows, const Mat6& information, int own,
-                     const DegeneracyNoise& noise) {
+                     double normal_noise_rad) {
   const int other = kRotation - own;
   double noise_information = 0;
-  const double floor_var = noise.normal_sigma_rad * noise.normal_sigma_rad;
+  const double floor_var = normal_noise_rad * normal_noise_rad;
   for (const PlaneRow& row : rows) {
     const double normal_var = floor_var + row.normal_sigma * row.normal_sigma;
     const double lever_sq = other == kTranslation ? 1 : row.point_body.squaredNorm();
@@ -71,10 +71,9 @@ struct Motion {
 // Of three motions in one pass: the rows do not fit in the first cache.
 std::array<Support, 3> measureSupport(std::span<const PlaneRow> rows,
                                       const std::array<Motion, 3>& motions,
-                                      const DegeneracyNoise& noise) {
+                                      double normal_noise_rad) {
   std::array<Support, 3> supports;
-  const double point_var = noise.point_sigma_m * noise.point_sigma_m;
-  const double floor_var = noise.normal_sigma_rad * noise.normal_sigma_rad;
+  const double floor_var = normal_noise_rad * normal_noise_rad;
   for (const PlaneRow& row : rows) {
     const double normal_var = floor_var + row.normal_sigma * row.normal_sigma;
     const double weight = 1 / row.variance;
@@ -85,7 +84,7 @@ std::array<Support, 3> measureSupport(std::span<const PlaneRow> rows,
       const double along = row.normal_body.dot(motion);
       const double along_sq = along * along, motion_sq = motion.squaredNorm();
       const double noise_var = normal_var * std::max(motion_sq - along_sq, 0.0) +
-                               point_var * m.w.cross(row.normal_body).squaredNorm();
+                               row.range_variance * m.w.cross(row.normal_body).squaredNorm();
       support.signal += weight * along_sq;
       support.noise_mean += weight * noise_var;
       // Of the square of a normal variable with mean `along`.
@@ -120,9 +119,9 @@ double factorOf(const MatchDirection& direction) {
 // those of the rows alone: shared errors blur them, since a bias of the range turns the weakest
 // axis towards whatever the bias moves most.
 void observeKind(std::span<const PlaneRow> rows, const Mat6& geometry, const Mat6& information,
-                 const DegeneracyNoise& noise, int own, std::array<MatchDirection, 6>& directions) {
+                 double normal_noise_rad, int own, std::array<MatchDirection, 6>& directions) {
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(schurComplement(geometry, own));
-  const Mat3 follow = followingMotion(rows, geometry, own, noise);
+  const Mat3 follow = followingMotion(rows, geometry, own, normal_noise_rad);
   const Mat3 schur = schurComplement(information, own);
   std::array<double, 3> counts{}, along{};
   std::array<Motion, 3> motions;
@@ -132,7 +131,7 @@ void observeKind(std::span<const PlaneRow> rows, const Mat6& geometry, const Mat
     motions[static_cast<std::size_t>(i)] =
         own == kTranslation ? Motion{axis, other} : Motion{other, axis};
   }
-  const std::array<Support, 3> supports = measureSupport(rows, motions, noise);
+  const std::array<Support, 3> supports = measureSupport(rows, motions, normal_noise_rad);
   for (int i = 0; i < 3; ++i) {
     const Support& support = supports[static_cast<std::size_t>(i)];
     MatchDirection& direction =
@@ -185,14 +184,14 @@ void cleanUp(ObservedDirections& observed) {
 }  // namespace
 
 ObservedDirections observeDirections(std::span<const PlaneRow> rows, const Mat6& spread,
-                                     const DegeneracyNoise& noise) {
+                                     double normal_noise_rad) {
   ObservedDirections observed;
   observed.information = leastSquares(rows).information;
   observed.shared_spread = spread;
   const Mat6 geometry = observed.information;
   const Mat6 whole = informationUnderSharedErrors(geometry, spread);
-  observeKind(rows, geometry, whole, noise, kTranslation, observed.directions);
-  observeKind(rows, geometry, whole, noise, kRotation, observed.directions);
+  observeKind(rows, geometry, whole, normal_noise_rad, kTranslation, observed.directions);
+  observeKind(rows, geometry, whole, normal_noise_rad, kRotation, observed.directions);
   attenuateKind(kTranslation, observed.directions, observed.information);
   attenuateKind(kRotation, observed.directions, observed.information);
   cleanUp(observed);

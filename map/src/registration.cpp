@@ -25,7 +25,7 @@ constexpr double kNearM = 5e-3, kNearRad = 1e-3;
 // Points that are enough for the first steps, for a scale on the way, and for a first look at the
 // directions.
 constexpr int kMoreRough = 3;  // further steps on these points, while the steps are long
-constexpr std::size_t kCoarsePoints = 600, kScaleSample = 600, kGlimpse = 500;
+constexpr std::size_t kCoarsePoints = 300, kScaleSample = 600, kGlimpse = 500;
 constexpr int kMinRows = 12;
 constexpr int kRestlessIterations =
     6;  // from then on a point has to move further and further to be
@@ -78,14 +78,18 @@ double robustVariance(double residual, double sigma, double scale) {
 
 }  // namespace
 
-void Registration::setPoints(std::vector<Point3f> points_body, const Vec3& sensor_position_body) {
-  points_ = std::move(points_body);
+void Registration::setPoints(AveragedPoints averaged_body, const Vec3& sensor_position_body) {
+  points_ = std::move(averaged_body);
   sensor_body_ = sensor_position_body;
-  rays_.resize(points_.size());
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const Vec3 ray = toVec(points_[i]) - sensor_body_;
+  const std::size_t size = points_.points.size();
+  rays_.resize(size);
+  range_variance_.resize(size);
+  const double variance = settings_.range_noise_m * settings_.range_noise_m;
+  for (std::size_t i = 0; i < size; ++i) {
+    const Vec3 ray = toVec(points_.points[i]) - sensor_body_;
     const double range = ray.norm();
     rays_[i] = range > 0 ? Vec3(ray / range) : Vec3::Zero();
+    range_variance_[i] = variance / points_.returns[i];
   }
 }
 
@@ -129,9 +133,8 @@ void Registration::measure(Correspondence& match, std::size_t point, const Vec3&
   match.residual = match.normal.dot(position) - match.height;
   match.range_factor = match.normal.dot(rotation * rays_[point]);
   const double cosine = std::max(std::abs(match.range_factor), kNoiseCosine);
-  const double range_part = settings_.range_noise_m * cosine;
   const double lever_sq = (position - match.map_point).squaredNorm();
-  match.sigma = std::sqrt(range_part * range_part + match.fit_variance +
+  match.sigma = std::sqrt(range_variance_[point] * cosine * cosine + match.fit_variance +
                           lever_sq * match.normal_sigma * match.normal_sigma);
 }
 
@@ -144,11 +147,11 @@ void Registration::associate(const Pose& pose, double gate, int iteration, std::
   const double research_sq = research * research;
   const Point3f sensor = toPoint(pose * sensor_body_);
   const auto reach = static_cast<float>(gate);
-  forEachChunk(arena_, (points_.size() + stride - 1) / stride, kChunk,
+  forEachChunk(arena_, (points_.points.size() + stride - 1) / stride, kChunk,
                [&](std::size_t, std::size_t begin, std::size_t end) {
-                 for (std::size_t i = begin * stride; i < points_.size() && i < end * stride;
+                 for (std::size_t i = begin * stride; i < points_.points.size() && i < end * stride;
                       i += stride) {
-                   const Vec3 position = pose * toVec(points_[i]);
+                   const Vec3 position = pose * toVec(points_.points[i]);
                    Correspondence& match = matches_[i];
                    if ((position - match.searched_at).squaredNorm() > research_sq) {
                      search(match, position, sensor, reach);
@@ -193,7 +196,7 @@ NormalEquations Registration::plainEquations(const Pose& pose, double scale) {
                  EquationSums sums;
                  for (std::size_t k = begin; k < end; ++k) {
                    const Correspondence& match = matches_[matched_[k]];
-                   sums.add(R_body_local * match.normal, toVec(points_[matched_[k]]),
+                   sums.add(R_body_local * match.normal, toVec(points_.points[matched_[k]]),
                             match.residual, 1 / robustVariance(match.residual, match.sigma, scale));
                  }
                  parts[chunk] = sums.equations();
@@ -209,10 +212,11 @@ NormalEquations Registration::plainEquations(const Pose& pose, double scale) {
 PlaneRow Registration::rowOf(std::size_t point, const Mat3& R_body_local, double scale) const {
   const Correspondence& match = matches_[point];
   PlaneRow row;
-  row.point_body = toVec(points_[point]);
+  row.point_body = toVec(points_.points[point]);
   row.normal_body = R_body_local * match.normal;
   row.residual = match.residual;
   row.range_factor = match.range_factor;
+  row.range_variance = range_variance_[point];
   row.normal_sigma = match.normal_sigma;
   row.surface_sigma = match.surface_sigma;
   row.variance = robustVariance(match.residual, match.sigma, scale);
@@ -263,7 +267,7 @@ std::vector<PlaneRow> Registration::unweightedRows(const Pose& pose, double scal
 ObservedDirections Registration::glimpse(const Pose& pose, double scale) const {
   const auto look = [&](std::size_t step) {
     const std::vector<PlaneRow> rows = unweightedRows(pose, scale, step);
-    return observeDirections(rows, Mat6::Zero(), noise());
+    return observeDirections(rows, Mat6::Zero(), settings_.normal_noise_rad);
   };
   const std::size_t step = std::max<std::size_t>(matched_.size() / kGlimpse, 1);
   const ObservedDirections observed = look(step);
@@ -303,8 +307,8 @@ Alignment Registration::align(const Pose& start, const AlignSchedule& schedule) 
   bool rough = true, look = true;
   double scale = 1;
   rows_.clear();
-  matches_.assign(points_.size(), {});
-  const std::size_t coarse = std::max<std::size_t>(points_.size() / kCoarsePoints, 1);
+  matches_.assign(points_.points.size(), {});
+  const std::size_t coarse = std::max<std::size_t>(points_.points.size() / kCoarsePoints, 1);
   for (int i = 0; i < schedule.max_iterations && !alignment.converged; ++i) {
     const bool first = i < schedule.first_iterations;
     {

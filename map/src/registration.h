@@ -10,6 +10,7 @@
 #include "paloc/map/map_information.h"
 #include "paloc/map/matcher_settings.h"
 #include "paloc/map/prior_map.h"
+#include "paloc/map/scan_averaging.h"
 
 namespace paloc {
 
@@ -47,9 +48,11 @@ class Registration {
   Registration(const PriorMap& map, const MatcherSettings& settings, tbb::task_arena& arena)
       : map_(map), settings_(settings), arena_(arena) {}
 
-  /// The points (body frame, m) to be registered next and where their rays start.
-  void setPoints(std::vector<Point3f> points_body, const Vec3& sensor_position_body);
-  const std::vector<Point3f>& points() const { return points_; }
+  /// The points (body frame, m) to be registered next, how many returns each is the mean of, and
+  /// where their rays start.
+  void setPoints(AveragedPoints averaged_body, const Vec3& sensor_position_body);
+  const std::vector<Point3f>& points() const { return points_.points; }
+  const AveragedPoints& averaged() const { return points_; }
   const Vec3& sensorPosition() const { return sensor_body_; }
 
   /// Registers the points from a start. A direction that the map does not fix is held at the start.
@@ -57,11 +60,6 @@ class Registration {
 
   /// Rows of the last alignment, at its result.
   const std::vector<PlaneRow>& rows() const { return rows_; }
-
-  DegeneracyNoise noise() const {
-    return {.point_sigma_m = settings_.range_noise_m,
-            .normal_sigma_rad = settings_.normal_noise_rad};
-  }
 
  private:
   struct Correspondence {
@@ -98,8 +96,9 @@ class Registration {
   const PriorMap& map_;
   const MatcherSettings& settings_;
   tbb::task_arena& arena_;
-  std::vector<Point3f> points_;
-  std::vector<Vec3> rays_;  // unit, body frame
+  AveragedPoints points_;
+  std::vector<Vec3> rays_;              // unit, body frame
+  std::vector<double> range_variance_;  // of each point (m2)
   Vec3 sensor_body_ = Vec3::Zero();
   std::vector<Correspondence> matches_;
   std::vector<std::uint32_t> matched_;  // points with a plane, ascending

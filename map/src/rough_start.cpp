@@ -43,14 +43,14 @@ int fittingPoints(const Registration& registration) {
 
 RoughStart searchAround(Registration& registration, const PriorMap& map,
                         const MatcherSettings& settings, const Pose& rough) {
-  const std::vector<Point3f> all = registration.points();
+  const AveragedPoints all = registration.averaged();
   const Vec3 sensor = registration.sensorPosition();
   const AlignSchedule wide{.first_gate_m = settings.locate_distance_m,
                            .first_iterations = 6,
                            .gate_m = settings.max_distance_m,
                            .max_iterations = 14,
                            .shared_errors = false};
-  registration.setPoints(everyNth(all, kCoarsePoints), sensor);
+  registration.setPoints(all.everyNth(kCoarsePoints), sensor);
   Pose best = rough;
   int most = -1;
   for (const Pose& start : startsAround(rough)) {

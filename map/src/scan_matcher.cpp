@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "paloc/core/mrpt_pose.h"
+#include "paloc/map/scan_averaging.h"
 #include "paloc/map/scan_level.h"
 #include "paloc/map/scan_normals.h"
 #include "paloc/map/scan_thinning.h"
@@ -159,17 +160,22 @@ class ScanMatcher::Work {
       return answer;
     }
     const auto start = std::chrono::steady_clock::now();
+    AveragedPoints averaged = thinned(scan);
+    timing_.filter_s = secondsSince(start);
+    answer.points = static_cast<int>(averaged.points.size());
+    answer.thinned = std::make_shared<const Scan>(Scan{
+        scan.start_ns, scan.end_ns, averaged.points, scan.sensor_position_body, averaged.returns});
+    registration_.setPoints(std::move(averaged), scan.sensor_position_body);
+    return answer;
+  }
+
+  AveragedPoints thinned(const Scan& scan) {
+    if (!scan.returns.empty()) return {scan.points_body, scan.returns};
     const std::vector<std::uint32_t> kept =
         thinning_.select(scan.points_body, scan.sensor_position_body,
                          static_cast<std::size_t>(std::max(settings_.max_points, 1)));
-    std::vector<Point3f> points(kept.size());
-    for (std::size_t i = 0; i < kept.size(); ++i) points[i] = scan.points_body[kept[i]];
-    timing_.filter_s = secondsSince(start);
-    answer.points = static_cast<int>(points.size());
-    answer.thinned = std::make_shared<const Scan>(
-        Scan{scan.start_ns, scan.end_ns, points, scan.sensor_position_body});
-    registration_.setPoints(std::move(points), scan.sensor_position_body);
-    return answer;
+    return averaging_.average(scan.points_body, kept, scan.sensor_position_body,
+                              settings_.range_noise_m);
   }
 
   bool tooFew(MapMatch& answer) const {
@@ -193,8 +199,8 @@ class ScanMatcher::Work {
     answer.iterations = alignment.iterations;
     answer.refusal = gate(alignment, answer);
     if (!registration_.rows().empty()) {
-      const ObservedDirections observed =
-          observeDirections(registration_.rows(), alignment.spread_body, registration_.noise());
+      const ObservedDirections observed = observeDirections(
+          registration_.rows(), alignment.spread_body, settings_.normal_noise_rad);
       answer.directions = observed.directions;
       const bool handled = settings_.degeneracy_handling;
       const Mat6 information =
@@ -247,6 +253,7 @@ class ScanMatcher::Work {
   tbb::task_arena arena_;
   Registration registration_;
   ScanThinning thinning_;
+  ScanAveraging averaging_;
   StartFinder finder_;
   Timing timing_;
 };

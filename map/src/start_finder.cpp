@@ -126,9 +126,9 @@ FoundStart StartFinder::find(const std::vector<Point3f>& points_body, const Star
     if (!candidates.finished) found.refusal = MatchRefusal::kSearchUnfinished;
     return found;
   }
-  const std::vector<Point3f> all = registration.points();
+  const AveragedPoints all = registration.averaged();
   const Vec3 sensor = registration.sensorPosition();
-  registration.setPoints(everyNth(all, kCoarsePoints), sensor);
+  registration.setPoints(all.everyNth(kCoarsePoints), sensor);
   std::vector<Place> places = placesOf(candidates, region, registration);
   registration.setPoints(all, sensor);
   places.resize(std::min(places.size(), kFinePlaces));

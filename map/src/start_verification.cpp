@@ -44,10 +44,10 @@ bool passesThrough(const PriorMap& map, const Vec3& at, const Vec3& direction) {
 
 // The share of rays that meet the map on the way to their end: at the right pose, next to none.
 double blockedShare(const PriorMap& map, const std::vector<Point3f>& points_body,
-                    const Vec3& sensor_body, const Pose& pose, std::size_t count) {
+                    const Vec3& sensor_body, const Pose& pose) {
   const Vec3 from = pose * sensor_body;
   std::size_t rays = 0, blocked = 0;
-  for (const Point3f& p : everyNth(points_body, count)) {
+  for (const Point3f& p : points_body) {
     const Vec3 to =
         pose * Vec3(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z));
     const double length = (to - from).norm();
@@ -68,13 +68,6 @@ double blockedShare(const PriorMap& map, const std::vector<Point3f>& points_body
 
 }  // namespace
 
-std::vector<Point3f> everyNth(const std::vector<Point3f>& points, std::size_t count) {
-  const std::size_t step = std::max<std::size_t>(points.size() / count, 1);
-  std::vector<Point3f> some;
-  for (std::size_t i = 0; i < points.size(); i += step) some.push_back(points[i]);
-  return some;
-}
-
 StartEvidence weighStart(const Registration& registration, const Alignment& alignment,
                          const PriorMap& map, std::size_t rays) {
   int fitting = 0;
@@ -84,8 +77,8 @@ StartEvidence weighStart(const Registration& registration, const Alignment& alig
   StartEvidence evidence;
   evidence.explained = fitting / std::max(1.0, 1.0 * (tried - undecided));
   evidence.fitting = fitting / std::max(1.0, 1.0 * alignment.matched);
-  evidence.blocked = blockedShare(map, registration.points(), registration.sensorPosition(),
-                                  alignment.T_local_body, rays);
+  evidence.blocked = blockedShare(map, registration.averaged().everyNth(rays).points,
+                                  registration.sensorPosition(), alignment.T_local_body);
   return evidence;
 }
 

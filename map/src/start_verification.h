@@ -20,7 +20,4 @@ struct StartEvidence {
 StartEvidence weighStart(const Registration& registration, const Alignment& alignment,
                          const PriorMap& map, std::size_t rays);
 
-/// Every so many-th of the points, so that about `count` are left.
-std::vector<Point3f> everyNth(const std::vector<Point3f>& points, std::size_t count);
-
 }  // namespace paloc

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "paloc/core/time.h"
@@ -13,6 +14,8 @@ struct Scan {
   TimeNs end_ns = 0;    ///< the instant that the points are deskewed to; the node's time
   std::vector<Point3f> points_body;          ///< finite, m
   Vec3 sensor_position_body = Vec3::Zero();  ///< where the rays start (m)
+  /// How many returns each point is the mean of, if the scan has been averaged; else empty.
+  std::vector<std::uint16_t> returns = {};
 };
 
 }  // namespace paloc

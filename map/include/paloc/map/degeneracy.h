@@ -10,12 +10,6 @@
 
 namespace paloc {
 
-/// Noise that can make a direction look constrained that is not.
-struct DegeneracyNoise {
-  double point_sigma_m = 0.02;     ///< of a point of the scan, from the data sheet
-  double normal_sigma_rad = 0.01;  ///< of a map normal beyond what its fit tells: uneven walls
-};
-
 /// The six directions of a pose as the map sees them, and the information that is left when the
 /// weak ones have been scaled down.
 struct ObservedDirections {
@@ -45,9 +39,10 @@ struct ObservedDirections {
 /// direction, and classes it: full above 0.95, none below 0.05, which leaves exactly zero. Scaled
 /// by f, the information becomes H - (1 - f) x x^T / (v^T S v) with x = (S v, 0): what other
 /// directions know by way of v stays. `spread` is that of the
-/// errors that points share, in the tangent of PlaneRow. The sigma of a direction is that of the
-/// scaled information under shared errors; of one without constraint 1e6.
+/// errors that points share, in the tangent of PlaneRow; `normal_noise_rad` the standard deviation
+/// of a map normal beyond what its fit tells: walls are uneven. The sigma of a direction is that of
+/// the scaled information under shared errors; of one without constraint 1e6.
 PALOC_EXPORT ObservedDirections observeDirections(std::span<const PlaneRow> rows,
-                                                  const Mat6& spread, const DegeneracyNoise& noise);
+                                                  const Mat6& spread, double normal_noise_rad);
 
 }  // namespace paloc

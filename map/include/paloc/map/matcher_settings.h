@@ -4,7 +4,7 @@ namespace paloc {
 
 /// Settings of the registration of a scan to the prior map.
 struct MatcherSettings {
-  int max_points = 4000;  ///< of a scan, after thinning
+  int max_points = 2500;  ///< of a scan, each the mean of the returns about it
   double max_distance_m =
       0.5;  ///< point to map point, in the first two iterations of a tracking match
   double fine_distance_m = 0.2;       ///< the same, from the third iteration on
