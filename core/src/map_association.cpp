@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "paloc/core/match_plausibility.h"
 #include "paloc/core/mrpt_pose.h"
@@ -18,7 +19,8 @@ MapAssociation KeptScans::associate(const MapMatch& match, const Pose& T_map_bod
                                         return direction.cls == DirectionClass::kFull;
                                       });
   const double megabytes =
-      1e-6 * static_cast<double>(sizeof(Point3f) * association.scan->points_body.size());
+      1e-6 * static_cast<double>(sizeof(Point3f) * association.scan->points_body.size() +
+                                 sizeof(std::uint16_t) * association.scan->returns.size());
   if (fully_used && kept_mb_ + megabytes > limit_mb_) {
     association.scan.reset();
   } else {

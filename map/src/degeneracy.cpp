@@ -172,7 +172,7 @@ void cleanUp(ObservedDirections& observed) {
   using Square = Eigen::Matrix<double, 6, 6>;
   const Eigen::SelfAdjointEigenSolver<Square> solver(observed.information);
   const Vec6 eigenvalues = solver.eigenvalues().cwiseMax(0.0);
-  const Square vectors = solver.eigenvectors();
+  const Square& vectors = solver.eigenvectors();
   const double smallest = 1e-9 * eigenvalues[5];
   if (eigenvalues[0] > smallest) return;
   observed.information = vectors * eigenvalues.asDiagonal() * vectors.transpose();

@@ -10,8 +10,8 @@ namespace {
 
 // Rays are sorted into the cells of a cube about the sensor, some 1.8 degrees wide in the middle of
 // a face and half of that at its corners.
-constexpr int kCellsAcross = 64;
-constexpr std::size_t kCells = std::size_t{6} * kCellsAcross * kCellsAcross;
+constexpr std::size_t kCellsAcross = 64;
+constexpr std::size_t kCells = 6 * kCellsAcross * kCellsAcross;
 // Of a return from its seed: farther apart on a wall, it may be on another one.
 constexpr float kReachM = 0.08F;
 constexpr double kNoiseSigmas = 3;  // of the difference of two ranges
@@ -22,14 +22,15 @@ std::size_t cellOf(const Point3f& ray) {
   const float lead = x_leads ? ray.x : y_leads ? ray.y : ray.z;
   const float u = x_leads ? ray.y : y_leads ? ray.z : ray.x;
   const float v = x_leads ? ray.z : y_leads ? ray.x : ray.y;
-  const int face = (x_leads ? 0 : y_leads ? 2 : 4) + (lead < 0 ? 1 : 0);
+  const std::size_t face = (x_leads ? 0U : y_leads ? 2U : 4U) + (lead < 0 ? 1U : 0U);
   // At the sensor itself there is no direction: any cell will do.
   const float half = 0.5F * kCellsAcross / std::max(std::abs(lead), 1e-6F);
   const auto place = [half](float along) {
     const float cell = along * half + 0.5F * kCellsAcross;
-    return cell > 0 ? static_cast<int>(std::min(cell, kCellsAcross - 1.0F)) : 0;  // also of NaN
+    // Also where that is not a number.
+    return cell > 0 ? static_cast<std::size_t>(std::min(cell, kCellsAcross - 1.0F)) : 0;
   };
-  return static_cast<std::size_t>((face * kCellsAcross + place(u)) * kCellsAcross + place(v));
+  return (face * kCellsAcross + place(u)) * kCellsAcross + place(v);
 }
 
 Point3f between(const Point3f& from, const Point3f& to) {

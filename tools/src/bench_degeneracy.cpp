@@ -49,7 +49,8 @@ class Place {
   BenchPlace place_;
 };
 
-// The same rays without noise, thinned as the matcher does: it cannot know more.
+// The same rays without noise, thinned as the matcher does. It also averages the returns about
+// each, but what leaves a direction open is where the surfaces lie, not how well they are measured.
 LabelledDirections Place::labelsAt(const synth::SensorModel& sensor, const Pose& T_map_body,
                                    std::size_t index) const {
   synth::SensorModel exact = sensor;
