@@ -50,7 +50,7 @@ class Place {
 };
 
 // The same rays without noise, thinned as the matcher does. It also averages the returns about
-// each, but what leaves a direction open is where the surfaces lie, not how well they are measured.
+// each, and so knows a direction somewhat better than these labels say.
 LabelledDirections Place::labelsAt(const synth::SensorModel& sensor, const Pose& T_map_body,
                                    std::size_t index) const {
   synth::SensorModel exact = sensor;
