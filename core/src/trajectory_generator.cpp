@@ -137,6 +137,7 @@ void TrajectoryGenerator::dropStart() {
   smoother_ = FixedLagSmoother(settings_.smoother);
   correlation_ = ScanCorrelation(settings_.map_correlation_distance_m);
   plausibility_ = MatchPlausibility(settings_);
+  few_points_.forget();
   scans_ = KeptScans(settings_.rematch_memory_mb);
   refusals_in_a_row_ = 0;
   start_.drop();
@@ -163,6 +164,11 @@ void TrajectoryGenerator::advance(const OdometryFrame& frame) {
   row.t_ns = frame.t_ns;
   row.scan_start_ns = frame.scan ? frame.scan->start_ns : frame.t_ns;
   row.match = matchScan(frame, node.state, dt_s);
+  if (row.match.accepted()) {
+    few_points_.check(last.state.T_map_body, node.state.T_map_body, row.match);
+  } else {
+    few_points_.forget();
+  }
   const Vec6 step = boxminus(fromMrpt(row.match.T_map_body), node.state.T_map_body);
   row.guess_step_position = step.head<3>();
   row.guess_step_rotation = step.tail<3>().norm();
@@ -297,69 +303,6 @@ std::optional<NodeEstimate> TrajectoryGenerator::newest() const {
   return smoother_.newest();
 }
 
-// Smooths all nodes, associates scans with the map anew where that moved their poses, and smooths
-// again. On failure `result` stays without a trajectory.
-void TrajectoryGenerator::smoothAll(Result& result) {
-  StageScope stage(timer_, "batch");
-  std::vector<ChainNode> nodes;
-  nodes.reserve(history_.size());
-  for (const HistoryNode& entry : history_) nodes.push_back(entry.node);
-  putMapFactors(nodes);
-  BatchSummary batch = smoothBatch(nodes, settings_.smoother);
-  for (int round = 0; round < settings_.max_rematch_rounds; ++round) {
-    if (batch.status == BatchSummary::Status::kFailed) return;
-    if (!associateAllAnew(batch, nodes, result.rematched)) break;
-    putMapFactors(nodes);
-    batch = smoothBatch(nodes, settings_.smoother);
-  }
-  if (batch.status == BatchSummary::Status::kFailed) return;
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    const NodeEstimate estimate{k, nodes[k].t_ns, nodes[k].state, batch.covariances[k]};
-    result.trajectory.push_back(trajectoryPoint(estimate, history_[k].association.match));
-  }
-  result.covariances = std::move(batch.covariances);
-  result.covariances_with_next = std::move(batch.covariances_with_next);
-}
-
-// True if any association is a new one.
-bool TrajectoryGenerator::associateAllAnew(const BatchSummary& batch,
-                                           const std::vector<ChainNode>& nodes,
-                                           RematchCounts& counts) {
-  StageScope stage(timer_, "rematch");
-  bool any = false;
-  counts.not_kept = 0;  // the last round's are all
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    MapAssociation& association = history_[k].association;
-    const Mat6 covariance = batch.covariances[k].topLeftCorner<6, 6>();
-    if (!associateAnew(*matcher_, settings_, nodes[k].state.T_map_body, covariance, association,
-                       counts)) {
-      continue;
-    }
-    any = true;
-  }
-  return any;
-}
-
-// The map factors of all associations, by how many scans share their errors before and after.
-void TrajectoryGenerator::putMapFactors(std::vector<ChainNode>& nodes) const {
-  std::vector<Vec3> positions;
-  std::vector<bool> has_map_factor;
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    positions.push_back(nodes[k].state.T_map_body.position);
-    has_map_factor.push_back(history_[k].association.match.accepted());
-  }
-  const std::vector<double> scans =
-      scansSharingErrors(positions, has_map_factor, settings_.map_correlation_distance_m);
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    std::erase_if(nodes[k].node_factors, [](const NodeFactor& factor) {
-      return std::holds_alternative<MapFactor>(factor);
-    });
-    if (!has_map_factor[k]) continue;
-    nodes[k].node_factors.push_back(
-        mapFactorOf(history_[k].association.match, scans[k], settings_.map_robust_width));
-  }
-}
-
 Result TrajectoryGenerator::finish(Smoothing smoothing) {
   if (start_.pending() && !start_.confirmedEnough()) dropStart();
   for (const NodeEstimate& rest : smoother_.window(true)) {
@@ -369,7 +312,9 @@ Result TrajectoryGenerator::finish(Smoothing smoothing) {
   }
   setFlags(online_);
   Result result;
-  if (smoothing == Smoothing::kBatch) smoothAll(result);
+  if (smoothing == Smoothing::kBatch) {
+    smoothRecording(settings_, *matcher_, timer_, history_, result);
+  }
   if (result.trajectory.empty() && !online_.empty()) {
     result.batch_failed = smoothing == Smoothing::kBatch;
     result.trajectory = online_;

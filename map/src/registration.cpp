@@ -26,6 +26,7 @@ constexpr double kNearM = 5e-3, kNearRad = 1e-3;
 // directions.
 constexpr int kMoreRough = 3;  // further steps on these points, while the steps are long
 constexpr std::size_t kCoarsePoints = 300, kScaleSample = 600, kGlimpse = 500;
+constexpr double kLeastWideningM = 0.01, kWideGate = 3;
 constexpr int kMinRows = 12;
 constexpr int kRestlessIterations =
     6;  // from then on a point has to move further and further to be
@@ -68,12 +69,32 @@ Vec6 differenceInBody(const Pose& to, const Pose& from) {
   return delta;
 }
 
-// Variance over its weight, of iteratively reweighted least squares with the kernel of Geman and
-// McClure: the weight is (1 + z^2/k^2)^-2.
-double robustVariance(double residual, double sigma, double scale) {
-  const double z = residual / (scale * sigma * kKernel);
-  const double spread = sigma * scale * (1 + z * z);
-  return spread * spread;
+// Weight of iteratively reweighted least squares with the kernel of Geman and McClure, k standard
+// deviations wide: (1 + z^2/k^2)^-2.
+double robustWeight(double residual, double sigma_sq) {
+  const double root = 1 + residual * residual / (kKernel * kKernel * sigma_sq);
+  return 1 / (root * root);
+}
+
+// By how much the kernel of an iteration is wider than the noise (m): from the second-last of the
+// first iterations on half as much each time, and nothing when it is of the noise's size.
+double wideningAt(int iteration, const AlignSchedule& schedule) {
+  const int halvings = std::max(iteration + 1 - schedule.first_iterations, 0);
+  const double widening = std::ldexp(schedule.start_sigma_m, -halvings);
+  return widening < kLeastWideningM ? 0 : widening;
+}
+
+// Points are matched within it (m).
+double gateAt(int iteration, const AlignSchedule& schedule) {
+  if (iteration < schedule.first_iterations) return schedule.first_gate_m;
+  const double wide = kWideGate * wideningAt(iteration, schedule);
+  return std::max(schedule.gate_m, std::min(schedule.first_gate_m, wide));
+}
+
+bool allFull(const ObservedDirections& observed) {
+  return std::all_of(
+      observed.directions.begin(), observed.directions.end(),
+      [](const MatchDirection& direction) { return direction.cls == DirectionClass::kFull; });
 }
 
 }  // namespace
@@ -188,19 +209,21 @@ double Registration::robustScale(std::size_t sample) {
 }
 
 // Least squares of independent residuals.
-NormalEquations Registration::plainEquations(const Pose& pose, double scale) {
+NormalEquations Registration::plainEquations(const Pose& pose, double scale, double widening_m) {
   const Mat3 R_body_local = pose.rotation.transpose();
   std::vector<NormalEquations> parts(chunkCount(matched_.size(), kChunk));
-  forEachChunk(arena_, matched_.size(), kChunk,
-               [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-                 EquationSums sums;
-                 for (std::size_t k = begin; k < end; ++k) {
-                   const Correspondence& match = matches_[matched_[k]];
-                   sums.add(R_body_local * match.normal, toVec(points_.points[matched_[k]]),
-                            match.residual, 1 / robustVariance(match.residual, match.sigma, scale));
-                 }
-                 parts[chunk] = sums.equations();
-               });
+  forEachChunk(
+      arena_, matched_.size(), kChunk, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+        EquationSums sums;
+        for (std::size_t k = begin; k < end; ++k) {
+          const Correspondence& match = matches_[matched_[k]];
+          const double variance = scale * scale * match.sigma * match.sigma;
+          const double weight = robustWeight(match.residual, variance + widening_m * widening_m);
+          sums.add(R_body_local * match.normal, toVec(points_.points[matched_[k]]), match.residual,
+                   weight / variance);
+        }
+        parts[chunk] = sums.equations();
+      });
   NormalEquations sum;
   for (const NormalEquations& part : parts) {
     sum.information += part.information;
@@ -219,7 +242,8 @@ PlaneRow Registration::rowOf(std::size_t point, const Mat3& R_body_local, double
   row.range_variance = range_variance_[point];
   row.normal_sigma = match.normal_sigma;
   row.surface_sigma = match.surface_sigma;
-  row.variance = robustVariance(match.residual, match.sigma, scale);
+  row.robust_weight = robustWeight(match.residual, scale * scale * match.sigma * match.sigma);
+  row.variance = scale * scale * match.sigma * match.sigma / row.robust_weight;
   return row;
 }
 
@@ -255,8 +279,8 @@ std::vector<PlaneRow> Registration::unweightedRows(const Pose& pose, double scal
   std::vector<PlaneRow> rows;
   for (std::size_t k = 0; k < matched_.size(); k += step) {
     rows.push_back(rowOf(matched_[k], R_body_local, scale));
-    const double sigma = scale * matches_[matched_[k]].sigma;
-    rows.back().variance = sigma * sigma;
+    rows.back().variance *= rows.back().robust_weight;
+    rows.back().robust_weight = 1;
   }
   return rows;
 }
@@ -271,10 +295,7 @@ ObservedDirections Registration::glimpse(const Pose& pose, double scale) const {
   };
   const std::size_t step = std::max<std::size_t>(matched_.size() / kGlimpse, 1);
   const ObservedDirections observed = look(step);
-  const bool sure = std::all_of(
-      observed.directions.begin(), observed.directions.end(),
-      [](const MatchDirection& direction) { return direction.cls == DirectionClass::kFull; });
-  return sure || step == 1 ? observed : look(1);
+  return allFull(observed) || step == 1 ? observed : look(1);
 }
 
 void Registration::summarize(double scale, Alignment& alignment) {
@@ -310,22 +331,28 @@ Alignment Registration::align(const Pose& start, const AlignSchedule& schedule) 
   matches_.assign(points_.points.size(), {});
   const std::size_t coarse = std::max<std::size_t>(points_.points.size() / kCoarsePoints, 1);
   for (int i = 0; i < schedule.max_iterations && !alignment.converged; ++i) {
-    const bool first = i < schedule.first_iterations;
     {
       const AddTime time(alignment.timing.association_s);
-      associate(pose, first ? schedule.first_gate_m : schedule.gate_m, i, rough ? coarse : 1);
+      associate(pose, gateAt(i, schedule), i, rough ? coarse : 1);
     }
     alignment.iterations = i + 1;
     if (matched_.size() < kMinRows) break;
     const AddTime time(alignment.timing.solve_s);
     scale = robustScale(kScaleSample);
-    NormalEquations system = plainEquations(pose, scale);
-    if (look && settings_.degeneracy_handling) anchors.hold(glimpse(pose, scale));
+    const double widening = wideningAt(i, schedule);
+    NormalEquations system = plainEquations(pose, scale, widening);
+    bool weak = false;
+    if (look && settings_.degeneracy_handling) {
+      const ObservedDirections observed = glimpse(pose, scale);
+      weak = !allFull(observed);
+      anchors.hold(observed);
+    }
     anchors.addTo(system, differenceInBody(pose, start));
     Vec6 step;
     if (!solveStep(system, step)) break;
     const double position = step.head<3>().norm(), rotation = step.tail<3>().norm();
-    alignment.converged = !rough && position < kConvergedM && rotation < kConvergedRad;
+    alignment.converged =
+        !rough && widening == 0 && position < kConvergedM && rotation < kConvergedRad;
     if (alignment.converged) {
       fillRows(pose, scale);
       moveRows(step);
@@ -333,10 +360,10 @@ Alignment Registration::align(const Pose& start, const AlignSchedule& schedule) 
     pose = movedInBody(pose, step);
     // The directions are looked at once with few points and the wide gate, once with all.
     const bool near = position < kNearM && rotation < kNearRad;
-    const bool was_rough = std::exchange(
-        rough,
-        i + 1 < schedule.first_iterations ||
-            (rough && coarse > 1 && !near && i + 1 < schedule.first_iterations + kMoreRough));
+    const bool was_rough =
+        std::exchange(rough, !weak && (i + 1 < schedule.first_iterations ||
+                                       (rough && coarse > 1 && !near &&
+                                        i + 1 < schedule.first_iterations + kMoreRough)));
     look = was_rough && !rough;
   }
   if (!alignment.converged) {

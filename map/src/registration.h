@@ -20,6 +20,9 @@ struct AlignSchedule {
   int first_iterations = 2;
   double gate_m = 0.2;
   int max_iterations = 20;
+  /// Of the start (m). Where it is large the few points that could correct it are far off their
+  /// planes: the kernel begins as wide as that, and narrows.
+  double start_sigma_m = 0;
   bool shared_errors = true;  ///< the information takes the errors into account that points share
 };
 
@@ -84,7 +87,7 @@ class Registration {
                const Mat3& rotation) const;
   void collectMatched(double gate, std::size_t stride);
   double robustScale(std::size_t sample);
-  NormalEquations plainEquations(const Pose& pose, double scale);
+  NormalEquations plainEquations(const Pose& pose, double scale, double widening_m);
   void fillRows(const Pose& pose, double scale);
   void moveRows(const Vec6& step);
   Mat6 spreadOfRows();

@@ -47,7 +47,8 @@ class ScanMatcher::Work {
     const AlignSchedule schedule{
         .first_gate_m = settings_.max_distance_m,
         .gate_m = std::min(settings_.fine_distance_m, settings_.max_distance_m),
-        .max_iterations = settings_.max_iterations};
+        .max_iterations = settings_.max_iterations,
+        .start_sigma_m = sigma_position};
     const Alignment alignment = registration_.align(toLocal(guess), schedule);
     fill(alignment, answer);
     if (settings_.spectrum) {

@@ -46,7 +46,11 @@ class TruthMatcher : public MapMatcher {
     m.T_map_body = toMrpt(boxplus(motion_.pose(t), noise));
     m.information.diagonal() << Vec3::Constant(1 / (kMapSigma_m * kMapSigma_m)),
         Vec3::Constant(1 / (kMapSigma_rad * kMapSigma_rad));
-    for (auto& direction : m.directions) direction.cls = DirectionClass::kFull;
+    for (std::size_t i = 0; i < 6; ++i) {
+      m.directions[i].axis_body = Vec3::Unit(static_cast<int>(i % 3));
+      m.directions[i].cls = DirectionClass::kFull;
+      m.directions[i].share = 1;
+    }
     if (degenerate) m.directions[0].cls = DirectionClass::kNone;
     return m;
   }

@@ -22,6 +22,7 @@ struct MatchDirection {
   Vec3 axis_body = Vec3::Zero();  ///< unit vector in the body frame: of translation or of rotation
   DirectionClass cls = DirectionClass::kNone;
   double share = 0;  ///< correspondences that constrain it over those of the best direction, 0..1
+  double agreement = 0;    ///< of the information along it, what robust weights leave, 0..1
   double probability = 0;  ///< that its information stands out of the noise, 0..1
   double sigma = 0;        ///< standard deviation along it given the others free (m or rad)
 };

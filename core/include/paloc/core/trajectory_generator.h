@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "paloc/core/batch_smoother.h"
 #include "paloc/core/estimator_settings.h"
+#include "paloc/core/few_point_directions.h"
 #include "paloc/core/fixed_lag_smoother.h"
 #include "paloc/core/imu_buffer.h"
 #include "paloc/core/map_association.h"
@@ -13,6 +13,7 @@
 #include "paloc/core/map_matcher.h"
 #include "paloc/core/match_plausibility.h"
 #include "paloc/core/odometry_frame.h"
+#include "paloc/core/smooth_recording.h"
 #include "paloc/core/stage_timer.h"
 #include "paloc/core/start_tracker.h"
 #include "paloc/core/stillness_detector.h"
@@ -58,12 +59,6 @@ class PALOC_EXPORT TrajectoryGenerator {
   Result finish(Smoothing smoothing = Smoothing::kBatch);
 
  private:
-  struct HistoryNode {
-    ChainNode node;                     // with the factors as they were given, for the batch
-    std::size_t diagnostics_index = 0;  // its row
-    MapAssociation association;
-  };
-
   void addImu(const ImuSample& sample);
   void addFrame(const OdometryFrame& frame);
   void tryStart(const OdometryFrame& frame);
@@ -74,15 +69,11 @@ class PALOC_EXPORT TrajectoryGenerator {
   void addEdgeFactors(const OdometryFrame& frame, const std::optional<ImuFactor>& imu, double dt_s,
                       ChainNode& node, FrameDiagnostics& row) const;
   void addMapFactor(const MapMatch& match, double since_last_s, ChainNode& node);
-  void putMapFactors(std::vector<ChainNode>& nodes) const;
   void addStationaryFactors(TimeNs since_ns, bool rested_before, ChainNode& node) const;
   bool append(ChainNode node, FrameDiagnostics row);
   OdometryFrame sinceLastNode(const OdometryFrame& frame) const;
   void rememberOdometry(const Pose& T_odom_body);
   void collectLeft();
-  void smoothAll(Result& result);
-  bool associateAllAnew(const BatchSummary& batch, const std::vector<ChainNode>& nodes,
-                        RematchCounts& counts);
   void setFlags(std::vector<TrajectoryPoint>& points) const;
 
   EstimatorSettings settings_;
@@ -92,6 +83,7 @@ class PALOC_EXPORT TrajectoryGenerator {
   StillnessDetector stillness_;
   ScanCorrelation correlation_;
   MatchPlausibility plausibility_;
+  FewPointDirections few_points_;
   FixedLagSmoother smoother_;
   KeptScans scans_;
   StartTracker start_;

@@ -34,8 +34,10 @@ struct ObservedDirections {
 ///   (after Hatleskog and Alexis, "Probabilistic Degeneracy Detection for Point-to-Plane Error
 ///   Minimization", 2024).
 ///
-/// Their product (a share up to 1/200 counts in proportion: a handful of
-/// points may be wrong together) scales the information along the
+/// - agreement: of the information q, what the robust weights leave.
+///
+/// The probability, times share * agreement^2 where that is below 1/200 (over 1/200: a handful of
+/// points may be wrong together, the sooner the less they agree), scales the information along the
 /// direction, and classes it: full above 0.95, none below 0.05, which leaves exactly zero. Scaled
 /// by f, the information becomes H - (1 - f) x x^T / (v^T S v) with x = (S v, 0): what other
 /// directions know by way of v stays. `spread` is that of the

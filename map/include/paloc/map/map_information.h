@@ -16,8 +16,9 @@ struct PlaneRow {
   Vec3 normal_body = Vec3::Zero();  ///< unit normal of the plane, in the body frame
   Vec3 point_body = Vec3::Zero();   ///< m
   double residual = 0;              ///< m
-  double variance = 1;      ///< of the residual, the point's own part (m2), over its robust weight
-  double range_factor = 0;  ///< n . ray: by how much a longer range moves the residual
+  double variance = 1;       ///< of the residual, the point's own part (m2), over its robust weight
+  double robust_weight = 1;  ///< 0..1, which is in the variance
+  double range_factor = 0;   ///< n . ray: by how much a longer range moves the residual
   double range_variance = 0;  ///< of the point along its ray (m2)
   double normal_sigma = 0;    ///< standard deviation of the normal's direction (rad)
   double surface_sigma = 0;   ///< standard deviation of the map's points about the plane (m)
