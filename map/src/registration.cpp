@@ -76,19 +76,16 @@ double robustWeight(double residual, double sigma_sq) {
   return 1 / (root * root);
 }
 
-// By how much the kernel of an iteration is wider than the noise (m): from the second-last of the
-// first iterations on half as much each time, and nothing when it is of the noise's size.
-double wideningAt(int iteration, const AlignSchedule& schedule) {
-  const int halvings = std::max(iteration + 1 - schedule.first_iterations, 0);
-  const double widening = std::ldexp(schedule.start_sigma_m, -halvings);
-  return widening < kLeastWideningM ? 0 : widening;
+// By how much the kernel is wider than the noise (m) once a direction was found weak: half as much
+// each time, and nothing when it is of the noise's size.
+double narrowed(double widening_m) {
+  return widening_m < 2 * kLeastWideningM ? 0 : 0.5 * widening_m;
 }
 
 // Points are matched within it (m).
-double gateAt(int iteration, const AlignSchedule& schedule) {
+double gateAt(int iteration, const AlignSchedule& schedule, double widening_m) {
   if (iteration < schedule.first_iterations) return schedule.first_gate_m;
-  const double wide = kWideGate * wideningAt(iteration, schedule);
-  return std::max(schedule.gate_m, std::min(schedule.first_gate_m, wide));
+  return std::max(schedule.gate_m, std::min(schedule.first_gate_m, kWideGate * widening_m));
 }
 
 bool allFull(const ObservedDirections& observed) {
@@ -325,28 +322,27 @@ Alignment Registration::align(const Pose& start, const AlignSchedule& schedule) 
   Pose& pose = alignment.T_local_body;
   pose = start;
   Anchors anchors;
-  bool rough = true, look = true;
-  double scale = 1;
+  bool rough = true, look = true, weak = false;
+  double scale = 1, widening = 0;
   rows_.clear();
   matches_.assign(points_.points.size(), {});
   const std::size_t coarse = std::max<std::size_t>(points_.points.size() / kCoarsePoints, 1);
   for (int i = 0; i < schedule.max_iterations && !alignment.converged; ++i) {
     {
       const AddTime time(alignment.timing.association_s);
-      associate(pose, gateAt(i, schedule), i, rough ? coarse : 1);
+      associate(pose, gateAt(i, schedule, widening), i, rough ? coarse : 1);
     }
     alignment.iterations = i + 1;
     if (matched_.size() < kMinRows) break;
     const AddTime time(alignment.timing.solve_s);
     scale = robustScale(kScaleSample);
-    const double widening = wideningAt(i, schedule);
-    NormalEquations system = plainEquations(pose, scale, widening);
-    bool weak = false;
     if (look && settings_.degeneracy_handling) {
       const ObservedDirections observed = glimpse(pose, scale);
-      weak = !allFull(observed);
+      if (!weak && !allFull(observed)) widening = schedule.start_sigma_m;
+      weak = weak || !allFull(observed);
       anchors.hold(observed);
     }
+    NormalEquations system = plainEquations(pose, scale, widening);
     anchors.addTo(system, differenceInBody(pose, start));
     Vec6 step;
     if (!solveStep(system, step)) break;
@@ -358,12 +354,13 @@ Alignment Registration::align(const Pose& start, const AlignSchedule& schedule) 
       moveRows(step);
     }
     pose = movedInBody(pose, step);
+    if (i + 1 >= schedule.first_iterations) widening = narrowed(widening);
     // The directions are looked at once with few points and the wide gate, once with all.
     const bool near = position < kNearM && rotation < kNearRad;
     const bool was_rough =
-        std::exchange(rough, !weak && (i + 1 < schedule.first_iterations ||
-                                       (rough && coarse > 1 && !near &&
-                                        i + 1 < schedule.first_iterations + kMoreRough)));
+        std::exchange(rough, widening == 0 && (i + 1 < schedule.first_iterations ||
+                                               (rough && coarse > 1 && !near &&
+                                                i + 1 < schedule.first_iterations + kMoreRough)));
     look = was_rough && !rough;
   }
   if (!alignment.converged) {
