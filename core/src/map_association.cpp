@@ -6,6 +6,7 @@
 
 #include "paloc/core/match_plausibility.h"
 #include "paloc/core/mrpt_pose.h"
+#include "paloc/core/relocation.h"
 
 namespace paloc {
 
@@ -38,6 +39,8 @@ bool associateAnew(MapMatcher& matcher, const EstimatorSettings& settings, const
   }
   // The map is wrong there: however unsure the pose is in the end, such a match is no help.
   if (association.match.refusal == MatchRefusal::kContradiction) return false;
+  // Registration alone finds something near any pose.
+  if (!association.match.accepted() && Relocation::lost(covariance)) return false;
   if (!association.scan) {
     ++counts.not_kept;
     return false;

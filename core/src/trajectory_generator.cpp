@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "paloc/core/lost_nodes.h"
 #include "paloc/core/measured_up.h"
 #include "paloc/core/mrpt_pose.h"
 #include "paloc/core/pose_flags.h"
 #include "paloc/core/predict_state.h"
+#include "paloc/core/predicted_covariance.h"
 #include "paloc/core/start_prior.h"
 #include "paloc/core/trajectory_point.h"
 
@@ -15,10 +17,14 @@ namespace {
 
 constexpr double kMinGuessSigmaPosition = 0.03;  // m: registration may always correct this much
 constexpr double kMinGuessSigmaRotation = 0.01;  // rad
+constexpr double kBriefGap_s = 1.0;              // in which a platform does not stop or start
 constexpr double kFirstFrameInterval_s = 0.1;    // stands for the time since a frame that never was
 
-double rootOfTrace(const StateMatrix& covariance, int offset) {
-  return std::sqrt(std::max(0.0, covariance.diagonal().segment<3>(offset).sum()));
+// The node that begins a window: what came before is not known to it, but for the biases.
+ChainNode withoutPast(ChainNode node, const EstimatorSettings& settings) {
+  node.edge_factors.clear();
+  node.node_factors.insert(node.node_factors.begin(), startPrior(node.state, settings));
+  return node;
 }
 
 }  // namespace
@@ -30,6 +36,7 @@ TrajectoryGenerator::TrajectoryGenerator(const EstimatorSettings& settings,
       stillness_(settings.stillness),
       correlation_(settings.map_correlation_distance_m),
       plausibility_(settings),
+      relocation_(settings),
       smoother_(settings.smoother),
       scans_(settings.rematch_memory_mb),
       start_(settings) {}
@@ -135,6 +142,7 @@ void TrajectoryGenerator::dropStart() {
   history_.clear();
   online_.clear();
   smoother_ = FixedLagSmoother(settings_.smoother);
+  window_first_ = 0;
   correlation_ = ScanCorrelation(settings_.map_correlation_distance_m);
   plausibility_ = MatchPlausibility(settings_);
   few_points_.forget();
@@ -163,7 +171,7 @@ void TrajectoryGenerator::advance(const OdometryFrame& frame) {
   FrameDiagnostics row;
   row.t_ns = frame.t_ns;
   row.scan_start_ns = frame.scan ? frame.scan->start_ns : frame.t_ns;
-  row.match = matchScan(frame, node.state, dt_s);
+  row.match = askMap(frame, last, node.state, imu.has_value());
   if (row.match.accepted()) {
     few_points_.check(last.state.T_map_body, node.state.T_map_body, row.match);
   } else {
@@ -172,12 +180,14 @@ void TrajectoryGenerator::advance(const OdometryFrame& frame) {
   const Vec6 step = boxminus(fromMrpt(row.match.T_map_body), node.state.T_map_body);
   row.guess_step_position = step.head<3>();
   row.guess_step_rotation = step.tail<3>().norm();
-  addEdgeFactors(frame, imu, dt_s, node, row);
+  addEdgeFactors(frame, last.state.T_map_body, imu, dt_s, node, row);
+  const bool found = row.match.accepted() && row.match.searched;
+  if (found) startAnew(fromMrpt(row.match.T_map_body), node);
   if (row.match.accepted()) addMapFactor(row.match, dt_s, node);
   row.at_rest = stillness_.update(frame.t_ns, last.state.bias_gyro);
   if (row.at_rest) addStationaryFactors(last.t_ns, diagnostics_.back().at_rest, node);
   const bool believed = start_.confirm(row.match);
-  if (append(std::move(node), row)) {
+  if (append(std::move(node), row, found)) {
     rememberOdometry(fromMrpt(frame.T_odom_body));
   } else {
     motion_skipped_ = frame.motion_covariance;
@@ -186,45 +196,83 @@ void TrajectoryGenerator::advance(const OdometryFrame& frame) {
   if (!believed) dropStart();
 }
 
-MapMatch TrajectoryGenerator::matchScan(const OdometryFrame& frame, const State& predicted,
-                                        double dt_s) {
+// What the map says of the scan: from where it is expected, or of a lost body from anywhere; such
+// an answer is told as `searched`.
+MapMatch TrajectoryGenerator::askMap(const OdometryFrame& frame, const NodeEstimate& last,
+                                     const State& predicted, bool by_imu) {
   MapMatch match;
   match.refusal = MatchRefusal::kNoScan;
   match.T_map_body = toMrpt(predicted.T_map_body);
   if (!frame.scan) return match;
-  StageScope stage(timer_, "match");
-  const StateMatrix covariance = smoother_.newest().covariance;
-  const double sigma_position =
-      std::max(kMinGuessSigmaPosition, rootOfTrace(covariance, tangent::kPosition) +
-                                           rootOfTrace(covariance, tangent::kVelocity) * dt_s);
-  const double sigma_rotation =
-      std::max(kMinGuessSigmaRotation, rootOfTrace(covariance, tangent::kRotation));
-  match =
-      matcher_->match(*frame.scan, toMrpt(predicted.T_map_body), sigma_position, sigma_rotation);
-  StartGuess expected = StartGuess::near(toMrpt(predicted.T_map_body));
-  expected.search_around = false;
-  if (match.accepted() && start_.pending()) {
-    match = borneOut(*matcher_, *frame.scan, expected, match);
-  } else if (!match.accepted() && refusals_in_a_row_ >= settings_.relocate_after_refusals) {
-    match = matcher_->locate(*frame.scan, expected);
+  const double dt_s = secondsBetween(last.t_ns, frame.t_ns);
+  const Mat6 covariance = predictedCovariance(last.covariance, dt_s,
+                                              sourceOfMotion(by_imu, frame.continues), settings_);
+  const bool away = refusals_in_a_row_ > 0 || dt_s > settings_.coasting_after_s;
+  const bool lost = away && !start_.pending() && Relocation::lost(covariance);
+  StageScope stage(timer_, lost ? "locate" : "match");
+  if (lost) {
+    const Pose motion = last.state.T_map_body.inverse() * predicted.T_map_body;
+    match = relocation_.seek(
+        *matcher_, *frame.scan,
+        {frame.t_ns, predicted.T_map_body, covariance, predicted.gravity_map, motion});
+  } else {
+    relocation_.reset();
+    match = matchScan(*frame.scan, predicted.T_map_body, covariance);
   }
-  Mat6 of_prediction = covariance.topLeftCorner<6, 6>();
-  of_prediction.topLeftCorner<3, 3>() +=
-      dt_s * dt_s * covariance.block<3, 3>(tangent::kVelocity, tangent::kVelocity);
-  if (match.accepted() && !plausibility_.believes(match, predicted.T_map_body, of_prediction)) {
+  match.searched = lost;
+  if (match.accepted() && !plausibility_.believes(match, predicted.T_map_body, covariance)) {
     match.refusal = MatchRefusal::kContradiction;
   }
   refusals_in_a_row_ = match.accepted() ? 0 : refusals_in_a_row_ + 1;
   return match;
 }
 
-void TrajectoryGenerator::addEdgeFactors(const OdometryFrame& frame,
+MapMatch TrajectoryGenerator::matchScan(const Scan& scan, const Pose& predicted,
+                                        const Mat6& covariance) {
+  const double sigma_position =
+      std::max(kMinGuessSigmaPosition, std::sqrt(covariance.diagonal().head<3>().sum()));
+  const double sigma_rotation =
+      std::max(kMinGuessSigmaRotation, std::sqrt(covariance.diagonal().tail<3>().sum()));
+  MapMatch match = matcher_->match(scan, toMrpt(predicted), sigma_position, sigma_rotation);
+  StartGuess expected = StartGuess::near(toMrpt(predicted));
+  expected.search_around = false;
+  if (match.accepted() && start_.pending()) return borneOut(*matcher_, scan, expected, match);
+  if (!match.accepted() && refusals_in_a_row_ >= settings_.relocate_after_refusals) {
+    return matcher_->locate(scan, expected);
+  }
+  return match;
+}
+
+// A body that was lost and is found: a new window begins at this node, and the nodes since it was
+// lost come along, for the batch.
+void TrajectoryGenerator::startAnew(const Pose& T_map_body, ChainNode& node) {
+  collect(smoother_.window(true));
+  const Pose T_found_expected = T_map_body * node.state.T_map_body.inverse();
+  for (std::size_t k = firstLost(history_, diagnostics_); k < history_.size(); ++k) {
+    displace(T_found_expected, history_[k].node.state);
+  }
+  displace(T_found_expected, node.state);
+  repairs_ = repairsSoFar();
+  ++repairs_.reanchored;
+  smoother_ = FixedLagSmoother(settings_.smoother);
+  window_first_ = history_.size();
+  correlation_ = ScanCorrelation(settings_.map_correlation_distance_m);
+  plausibility_ = MatchPlausibility(settings_);
+  few_points_.forget();
+  relocation_.reset();
+}
+
+// The node's state is the prediction.
+void TrajectoryGenerator::addEdgeFactors(const OdometryFrame& frame, const Pose& T_map_body_last,
                                          const std::optional<ImuFactor>& imu, double dt_s,
                                          ChainNode& node, FrameDiagnostics& row) const {
   if (imu) {
     node.edge_factors.push_back(*imu);
   } else {
-    node.edge_factors.push_back(VelocityFactor(dt_s, settings_.velocity_sigma_mps));
+    // Over a long time it may have gone anywhere, however it moves before and after.
+    const bool brief = frame.continues || dt_s < kBriefGap_s;
+    node.edge_factors.push_back(VelocityFactor(
+        dt_s, brief ? settings_.velocity_sigma_mps : settings_.prior_sigma_velocity_mps));
   }
   node.edge_factors.push_back(BiasWalkFactor(settings_.imu, dt_s));
   node.edge_factors.push_back(ConstantGravityFactor(settings_.gravity_walk_sqrthz, dt_s));
@@ -232,6 +280,9 @@ void TrajectoryGenerator::addEdgeFactors(const OdometryFrame& frame,
     const Pose motion = T_odom_body_last_.inverse() * fromMrpt(frame.T_odom_body);
     const RobustKernel kernel{RobustKernel::Kind::kHuber, settings_.odometry_robust_width};
     node.edge_factors.push_back(LidarOdometryFactor(motion, frame.motion_covariance, kernel));
+  } else if (!imu) {
+    node.edge_factors.push_back(LidarOdometryFactor(
+        T_map_body_last.inverse() * node.state.T_map_body, unmeasuredMotion(dt_s, settings_)));
   }
   row.has_imu_factor = imu.has_value();
   row.has_odometry_factor = frame.continues;
@@ -258,12 +309,13 @@ void TrajectoryGenerator::addStationaryFactors(TimeNs since_ns, bool rested_befo
   }
 }
 
-// False if the smoother refuses the node.
-bool TrajectoryGenerator::append(ChainNode node, FrameDiagnostics row) {
+// False if the smoother refuses the node; `first`: it begins a window.
+bool TrajectoryGenerator::append(ChainNode node, FrameDiagnostics row, bool first) {
   const std::uint64_t repairs_before = smoother_.repairs().total();
   {
     StageScope stage(timer_, "smooth");
-    if (smoother_.add(node).status == UpdateSummary::Status::kRefused) {
+    const ChainNode& added = first ? withoutPast(node, settings_) : node;
+    if (smoother_.add(added).status == UpdateSummary::Status::kRefused) {
       unused_.add("OdometryFrame", "estimator", "refused by the smoother");
       return false;
     }
@@ -273,17 +325,23 @@ bool TrajectoryGenerator::append(ChainNode node, FrameDiagnostics row) {
   row.match.thinned.reset();
   diagnostics_.push_back(std::move(row));
   history_.push_back({std::move(node), diagnostics_.size() - 1, std::move(association)});
-  collectLeft();
+  collect(smoother_.takeLeft());
   return true;
 }
 
-// Estimates of nodes that left the window are the online result, and the batch's first guess.
-void TrajectoryGenerator::collectLeft() {
-  for (const NodeEstimate& left : smoother_.takeLeft()) {
-    const auto index = static_cast<std::size_t>(left.id);
-    history_[index].node.state = left.state;
-    online_.push_back(trajectoryPoint(left, history_[index].association.match));
+// Estimates of nodes that leave the window are the online result, and the batch's first guess.
+void TrajectoryGenerator::collect(const std::vector<NodeEstimate>& estimates) {
+  for (const NodeEstimate& estimate : estimates) {
+    HistoryNode& entry = history_[window_first_ + static_cast<std::size_t>(estimate.id)];
+    entry.node.state = estimate.state;
+    online_.push_back(trajectoryPoint(estimate, entry.association.match));
   }
+}
+
+RepairCounts TrajectoryGenerator::repairsSoFar() const {
+  RepairCounts sum = repairs_;
+  sum += smoother_.repairs();
+  return sum;
 }
 
 std::vector<TrajectoryPoint> TrajectoryGenerator::takeOnline() {
@@ -305,11 +363,7 @@ std::optional<NodeEstimate> TrajectoryGenerator::newest() const {
 
 Result TrajectoryGenerator::finish(Smoothing smoothing) {
   if (start_.pending() && !start_.confirmedEnough()) dropStart();
-  for (const NodeEstimate& rest : smoother_.window(true)) {
-    const auto index = static_cast<std::size_t>(rest.id);
-    history_[index].node.state = rest.state;
-    online_.push_back(trajectoryPoint(rest, history_[index].association.match));
-  }
+  collect(smoother_.window(true));
   setFlags(online_);
   Result result;
   if (smoothing == Smoothing::kBatch) {
@@ -323,7 +377,7 @@ Result TrajectoryGenerator::finish(Smoothing smoothing) {
   }
   result.online = online_;
   result.diagnostics = diagnostics_;
-  result.repairs = smoother_.repairs();
+  result.repairs = repairsSoFar();
   result.frames_before_start =
       history_.empty() ? diagnostics_.size() : history_[0].diagnostics_index;
   if (result.trajectory.empty()) {

@@ -37,6 +37,7 @@ class SynthCommand : public Command {
   std::string map_, trajectory_, folder_, extrinsic_;
   std::vector<std::string> changes_;
   double range_noise_m_ = -1;
+  std::vector<double> blackout_s_;
   bool json_ = false;
 };
 
@@ -102,6 +103,11 @@ void SynthCommand::addModelOptions() {
                        "what differs from the surveyed place (several may be given; moved-wall=0.3 "
                        "tells metres, walking-people=4 how many): " +
                            joined(synth::changeNames()));
+  command_
+      ->add_option("--blackout", blackout_s_,
+                   "from, to (s): nothing is recorded, while the platform goes on")
+      ->expected(2)
+      ->check(CLI::NonNegativeNumber);
   command_->add_option(
       "--T-body-lidar", extrinsic_,
       "x,y,z,yaw,pitch,roll (m, degrees) of the LiDAR in the body: p_body = T p_lidar");
@@ -112,6 +118,12 @@ ExitCode SynthCommand::run() {
   settings_.trajectory = trajectory_;
   settings_.folder = folder_;
   if (range_noise_m_ >= 0) settings_.range_noise_m = range_noise_m_;
+  if (!blackout_s_.empty()) {
+    if (!(blackout_s_[0] < blackout_s_[1])) {
+      throw UsageError("--blackout: the second time must be after the first");
+    }
+    settings_.blackout_s = {blackout_s_[0], blackout_s_[1]};
+  }
   if (!extrinsic_.empty()) {
     settings_.T_body_lidar = fromMrpt(parsePose(extrinsic_, "--T-body-lidar"));
   }

@@ -33,13 +33,19 @@ constexpr double kSurveyShare = 0.2;  // of the time, roughly
 /// IMU samples and odometry poses that are older.
 class OrderedRecording {
  public:
-  OrderedRecording(const std::filesystem::path& file, const Timeline& timeline, bool gzip)
+  OrderedRecording(const std::filesystem::path& file, const Timeline& timeline,
+                   const SynthSettings& settings)
       : feed_(timeline),
-        writer_(file, gzip ? RawlogWriter::Compression::kGzip : RawlogWriter::Compression::kNone) {}
+        writer_(file, settings.gzip ? RawlogWriter::Compression::kGzip
+                                    : RawlogWriter::Compression::kNone) {
+    if (!settings.blackout_s) return;
+    dark_from_ns_ = timeline.first_scan_ns + nsFromSeconds((*settings.blackout_s)[0]);
+    dark_to_ns_ = timeline.first_scan_ns + nsFromSeconds((*settings.blackout_s)[1]);
+  }
 
   void writeScan(const obs::CObservationLidarScan& scan) {
     writeUntil(fromMrptTime(scan.timestamp));
-    writer_.write(scan);
+    write(scan);
   }
   void close() {
     writeUntil(std::numeric_limits<TimeNs>::max());
@@ -48,11 +54,16 @@ class OrderedRecording {
 
  private:
   void writeUntil(TimeNs end_ns) {
-    feed_.until(end_ns, [&](const auto& observation) { writer_.write(observation); });
+    feed_.until(end_ns, [&](const auto& observation) { write(observation); });
+  }
+  void write(const mrpt::obs::CObservation& observation) {
+    const TimeNs t_ns = fromMrptTime(observation.timestamp);
+    if (t_ns < dark_from_ns_ || t_ns >= dark_to_ns_) writer_.write(observation);
   }
 
   TimelineFeed feed_;
   RawlogWriter writer_;
+  TimeNs dark_from_ns_ = 0, dark_to_ns_ = 0;
 };
 
 /// Simulates the scans on all threads, and writes them in order as they are ready; a few at a time
@@ -134,7 +145,7 @@ SynthSummary writeRecording(const SynthSettings& settings, const SynthProgress& 
   writeImuTruth(folder.file("truth_imu.csv"), timeline.imu);
   const LidarSimulator lidar(sensor, settings.T_body_lidar, changed.mesh, surroundings,
                              timeline.motion, settings.seed);
-  OrderedRecording recording(folder.file("recording.rawlog"), timeline, settings.gzip);
+  OrderedRecording recording(folder.file("recording.rawlog"), timeline, settings);
   writeScans(timeline, lidar, recording, summary, progress);
   recording.close();
   if (summary.scans_without_returns > 0) {

@@ -93,6 +93,7 @@ void writeDescription(const std::filesystem::path& file, const SynthSettings& se
                       {"step_noise_m", settings.odometry.step_noise_m},
                       {"step_noise_rad", settings.odometry.step_noise_rad},
                       {"end_error_m", summary.odometry_end_error_m}};
+  if (settings.blackout_s) json["blackout_s"] = *settings.blackout_s;
   if (summary.map_points > 0) {
     json["map"] = {{"points", summary.map_points},
                    {"spacing_m", survey.spacing_m},

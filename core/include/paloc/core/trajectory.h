@@ -64,6 +64,12 @@ struct RepairCounts {
   std::uint64_t factors_dropped = 0;  ///< measurements that were not finite or absurd
   std::uint64_t reanchored = 0;       ///< the window had to start anew
   std::uint64_t total() const { return damped + factors_dropped + reanchored; }
+  RepairCounts& operator+=(const RepairCounts& other) {
+    damped += other.damped;
+    factors_dropped += other.factors_dropped;
+    reanchored += other.reanchored;
+    return *this;
+  }
 };
 
 /// What smoothing at the end changed in the associations with the map.

@@ -13,6 +13,7 @@
 #include "paloc/core/map_matcher.h"
 #include "paloc/core/match_plausibility.h"
 #include "paloc/core/odometry_frame.h"
+#include "paloc/core/relocation.h"
 #include "paloc/core/smooth_recording.h"
 #include "paloc/core/stage_timer.h"
 #include "paloc/core/start_tracker.h"
@@ -65,15 +66,20 @@ class PALOC_EXPORT TrajectoryGenerator {
   void start(const OdometryFrame& frame, const MapMatch& match);
   void dropStart();
   void advance(const OdometryFrame& frame);
-  MapMatch matchScan(const OdometryFrame& frame, const State& predicted, double dt_s);
-  void addEdgeFactors(const OdometryFrame& frame, const std::optional<ImuFactor>& imu, double dt_s,
-                      ChainNode& node, FrameDiagnostics& row) const;
+  MapMatch askMap(const OdometryFrame& frame, const NodeEstimate& last, const State& predicted,
+                  bool by_imu);
+  MapMatch matchScan(const Scan& scan, const Pose& predicted, const Mat6& covariance);
+  void startAnew(const Pose& T_map_body, ChainNode& node);
+  void addEdgeFactors(const OdometryFrame& frame, const Pose& T_map_body_last,
+                      const std::optional<ImuFactor>& imu, double dt_s, ChainNode& node,
+                      FrameDiagnostics& row) const;
   void addMapFactor(const MapMatch& match, double since_last_s, ChainNode& node);
   void addStationaryFactors(TimeNs since_ns, bool rested_before, ChainNode& node) const;
-  bool append(ChainNode node, FrameDiagnostics row);
+  bool append(ChainNode node, FrameDiagnostics row, bool first);
   OdometryFrame sinceLastNode(const OdometryFrame& frame) const;
   void rememberOdometry(const Pose& T_odom_body);
-  void collectLeft();
+  RepairCounts repairsSoFar() const;
+  void collect(const std::vector<NodeEstimate>& estimates);
   void setFlags(std::vector<TrajectoryPoint>& points) const;
 
   EstimatorSettings settings_;
@@ -84,7 +90,10 @@ class PALOC_EXPORT TrajectoryGenerator {
   ScanCorrelation correlation_;
   MatchPlausibility plausibility_;
   FewPointDirections few_points_;
+  Relocation relocation_;
   FixedLagSmoother smoother_;
+  std::size_t window_first_ = 0;  // of the history: the smoother's first node
+  RepairCounts repairs_;          // of smoothers before it
   KeptScans scans_;
   StartTracker start_;
   Pose T_odom_body_last_;               // of the last node; before the start, of the last frame

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -32,6 +33,8 @@ struct SynthSettings {
   ImuModel imu;
   OdometryModel odometry;
   SurveyModel survey;
+  /// From, to: nothing was recorded (s, after the first scan's start), while the platform went on.
+  std::optional<std::array<double, 2>> blackout_s;
   std::vector<Change> changes;   ///< between the survey and the recording, in this order
   std::filesystem::path folder;  ///< made if it does not exist
   bool gzip = false;
