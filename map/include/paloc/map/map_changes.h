@@ -35,7 +35,7 @@ struct MapChanges {
   std::size_t map_points_seen = 0;  ///< of the prior map: seen, or seen through, by any scan
   std::size_t scans_used = 0;
   std::size_t scans_unsure = 0;  ///< not used: their poses are too unsure
-  std::size_t count(MapChange kind) const;
+  PALOC_EXPORT std::size_t count(MapChange kind) const;
 };
 
 /// Measurement noise that decides what is beyond it (m, one sigma).
