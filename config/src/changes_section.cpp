@@ -16,8 +16,10 @@ std::vector<Setting> changeSettings() {
   s.count("min_scans", &S::min_scans, {1, 1000}, "Scans that must agree on a change.");
   s.number("min_persistence_s", &S::min_persistence_s, "s", {0, 1e6},
            "Something added is seen at times that lie so far apart.");
-  s.number("min_dominance", &S::min_dominance, "", {1, 1000},
-           "Scans that see through a point of the map over those that see it.");
+  s.number(
+      "min_dominance", &S::min_dominance, "", {1, 1000},
+      "Scans that see through something over those that see it, for it to be gone; or the other "
+      "way, for it to stand.");
   return std::move(s).rows();
 }
 

@@ -12,8 +12,7 @@
 namespace paloc {
 namespace {
 
-constexpr double kTogether_m = 0.15;        // points of one object are nearer to each other
-constexpr std::size_t kSmallestObject = 8;  // points of 5 cm: smaller ones are left out
+constexpr double kTogether_m = 0.15;  // points of one object are nearer to each other
 
 void append(MapChanges& changes, const Point3f& point, MapChange kind) {
   changes.cloud.points.push_back(point);
@@ -39,6 +38,7 @@ std::vector<RayTarget> targetsOf(const PriorMap& map, const ChangeCandidates& wi
 }
 
 /// Of targets with their votes: which are seen through, by enough scans and far more than see them.
+/// One in a plane that no ray came near to goes with those about it.
 class SeenThrough {
  public:
   SeenThrough(const RayTargets& targets, const std::vector<RayVotes>& votes,
@@ -47,8 +47,8 @@ class SeenThrough {
 
   bool operator()(std::uint32_t i) const {
     const auto scans = static_cast<std::uint32_t>(settings_.min_scans);
-    return dominates(votes_[i].passes, votes_[i].hits) && sums_[i].passes >= 2 * scans &&
-           votes_[i].passes >= scans && dominates(sums_[i].passes, sums_[i].hits);
+    return dominates(votes_[i].passes, votes_[i].hits) && sums_[i].most_passes >= scans &&
+           sums_[i].passes >= 3 * scans && dominates(sums_[i].passes, sums_[i].hits);
   }
 
  private:
@@ -103,11 +103,12 @@ class Unexplained {
 
  private:
   bool hasMoved(const RayVotes& votes, const VoteSums& sums) const {
-    return votes.hits > 0 && votes.passes >= settings_.min_scans && sums.passes > sums.hits &&
-           votes.passes > votes.hits;
+    return votes.hits > 0 && votes.passes > 0 && sums.passes > sums.hits &&
+           sums.most_passes >= static_cast<std::uint32_t>(settings_.min_scans);
   }
   bool isPersistent(const RayVotes& votes) const {
-    return votes.hits >= settings_.min_scans && votes.hits > votes.passes &&
+    return votes.hits >= settings_.min_scans &&
+           votes.hits >= settings_.min_dominance * votes.passes &&
            secondsBetween(votes.first_hit_ns, votes.last_hit_ns) >= settings_.min_persistence_s;
   }
 
@@ -141,7 +142,7 @@ class Unexplained {
       const Group& group = groups[group_of[i]];
       if (continues[i] != 0) {
         append(changes, targets_[i].point, MapChange::kUnmapped);
-      } else if (group.points >= kSmallestObject) {
+      } else if (group.points >= static_cast<std::size_t>(settings_.min_object_points)) {
         append(changes, targets_[i].point,
                2 * group.covered > group.points ? MapChange::kAdded : MapChange::kUnmapped);
       }

@@ -7,6 +7,7 @@ namespace paloc {
 namespace {
 
 constexpr double kDeepest_m = 3, kStep_m = 0.2, kAside_m = 0.3;
+constexpr double kBeside_m = 0.15;
 constexpr double kLevel = 0.7;     // cosine: what is flatter is ground
 constexpr double kAligned = 0.95;  // of normals of one plane
 constexpr double kOffPlane_m = 0.08;
@@ -49,7 +50,7 @@ bool MapCoverage::continuesPlane(const RayTarget& target) const {
     for (int i = 0; i < kDirections; ++i) {
       const double angle = 2 * std::numbers::pi * i / kDirections;
       const Vec3 at = p + reach_m * (std::cos(angle) * u + std::sin(angle) * v);
-      const PriorMap::Nearest nearest = map_.nearest(toPoint(at), static_cast<float>(kAside_m / 2));
+      const PriorMap::Nearest nearest = map_.nearest(toPoint(at), static_cast<float>(kBeside_m));
       if (!nearest.found()) continue;
       const MapPlane plane = map_.plane(nearest.index);
       if (!plane.planar() || std::abs(normalOf(plane).dot(normal)) < kAligned) continue;

@@ -112,24 +112,24 @@ std::size_t OccupancyMap::cells() const { return impl_->tree.getNumLeafNodes(); 
 std::size_t OccupancyMap::raysOutside() const { return impl_->rays_outside; }
 double OccupancyMap::memoryMb() const { return impl_->memoryMb(); }
 
-// Written to memory first: the library reports what goes wrong with a file on the console only.
+// The header is written here: the library's own writer prints to the console.
 void OccupancyMap::save(const std::filesystem::path& path) {
-  impl_->tree.toMaxLikelihood();
-  impl_->tree.prune();
+  octomap::OcTree& tree = impl_->tree;
+  tree.toMaxLikelihood();
+  tree.prune();
   std::ostringstream content;
-  impl_->tree.writeBinaryConst(content);
-  std::string bytes = content.str();
-  std::ostringstream frame;
-  frame.precision(12);
-  if (!impl_->origin.isZero(0)) {
-    frame << "# add (" << impl_->origin.x() << ", " << impl_->origin.y() << ", "
-          << impl_->origin.z() << ") m to come to the prior map's frame\n";
+  content.precision(12);
+  content << "# Octomap OcTree binary file\n";
+  if (impl_->origin.isZero(0)) {
+    content << "# in the prior map's frame\n";
   } else {
-    frame << "# in the prior map's frame\n";
+    content << "# add (" << impl_->origin.x() << ", " << impl_->origin.y() << ", "
+            << impl_->origin.z() << ") m to come to the prior map's frame\n";
   }
-  bytes.insert(bytes.find('\n') + 1, frame.str());
+  content << "id OcTree\nsize " << tree.size() << "\nres " << tree.getResolution() << "\ndata\n";
+  if (tree.getRoot() != nullptr) tree.writeBinaryNode(content, tree.getRoot());
   OutputFile file(path);
-  file.write(bytes);
+  file.write(content.str());
   file.close();
 }
 

@@ -150,8 +150,8 @@ std::vector<VoteSums> sumAbout(const RayTargets& targets, const std::vector<RayV
   tbb::task_arena arena(std::max(threads, 1));
   forEachChunk(arena, targets.size(), kChunk, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (votes[i].passes == 0) continue;
       const RayTarget& target = targets[static_cast<std::uint32_t>(i)];
+      if (votes[i].passes == 0 && (votes[i].hits > 0 || !target.planar())) continue;
       targets.near(target.position(), kAbout_m, [&](std::uint32_t other) {
         const RayTarget& neighbour = targets[other];
         if (target.planar() && neighbour.planar() &&
@@ -160,7 +160,7 @@ std::vector<VoteSums> sumAbout(const RayTargets& targets, const std::vector<RayV
         }
         sums[i].passes += votes[other].passes;
         sums[i].hits += votes[other].hits;
-        ++sums[i].targets;
+        sums[i].most_passes = std::max<std::uint32_t>(sums[i].most_passes, votes[other].passes);
       });
     }
   });

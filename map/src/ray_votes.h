@@ -40,7 +40,8 @@ std::vector<RayVotes> castVotes(const RayTargets& targets, const ScanRaySource& 
 
 /// Votes summed over the targets on the same surface about each target.
 struct VoteSums {
-  std::uint32_t passes = 0, hits = 0, targets = 0;
+  std::uint32_t passes = 0, hits = 0;
+  std::uint32_t most_passes = 0;  ///< of any one of them: so many scans at least
 };
 std::vector<VoteSums> sumAbout(const RayTargets& targets, const std::vector<RayVotes>& votes,
                                int threads);

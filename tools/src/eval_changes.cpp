@@ -9,6 +9,8 @@ namespace paloc {
 namespace {
 
 constexpr double kFoundWithin_m = 0.08;  // points stand for about 5 cm
+// Recall is asked of what surely belongs to the changed thing, not to what stands beside it.
+constexpr double kBeside_m = 0.02, kAboveFloor_m = 0.1;
 
 Vec3 positionOf(const PointCloud& cloud, std::size_t i) {
   const Point3f& p = cloud.points[i];
@@ -93,11 +95,11 @@ class Evaluation {
       ChangeScore& score = result_.kinds[at++];
       score.kind = kind;
       score.reported = input_.changes.count(kind);
-      score.correct = countCorrect(input_.changes, kind,
-                                   [&](const Vec3& p) { return changedAt(kind, p, tolerance_m_); });
-      // The floor that something stands on has not changed: recall is asked of what is above it.
+      score.correct = countCorrect(input_.changes, kind, [&](const Vec3& p) {
+        return changedAt(kind, p, tolerance_m_, tolerance_m_);
+      });
       const Found found = countFound(cloudOf(kind), reported, [&](const Vec3& p) {
-        return changedAt(kind, p, -2 * tolerance_m_);
+        return changedAt(kind, p, kBeside_m, -kAboveFloor_m);
       });
       score.there = found.there;
       score.found = found.found;
@@ -111,25 +113,26 @@ class Evaluation {
     return kind == MapChange::kGone ? input_.map : input_.scans;
   }
 
-  bool changedAt(MapChange kind, const Vec3& p, double below_m) const {
+  bool changedAt(MapChange kind, const Vec3& p, double margin_m, double below_m) const {
     switch (kind) {
       case MapChange::kGone:
-        return inAny(truth_.gone, p, below_m);
+        return inAny(truth_.gone, p, margin_m, below_m);
       case MapChange::kAdded:
-        return inAny(truth_.added, p, below_m);
+        return inAny(truth_.added, p, margin_m, below_m);
       case MapChange::kMoved:
-        return truth_.sweptByPeople(p, tolerance_m_, below_m);
+        return truth_.sweptByPeople(p, margin_m, below_m);
       case MapChange::kUnmapped:
         for (const ChangeTruth::Region& region : truth_.missing) {
-          if (region.contains(p, below_m > 0 ? tolerance_m_ : -tolerance_m_)) return true;
+          if (region.contains(p, margin_m)) return true;
         }
     }
     return false;
   }
 
-  bool inAny(const std::vector<ChangeTruth::Box>& boxes, const Vec3& p, double below_m) const {
+  bool inAny(const std::vector<ChangeTruth::Box>& boxes, const Vec3& p, double margin_m,
+             double below_m) const {
     for (const ChangeTruth::Box& box : boxes) {
-      if (box.contains(p, tolerance_m_, below_m)) return true;
+      if (box.contains(p, margin_m, below_m)) return true;
     }
     return false;
   }
@@ -138,7 +141,7 @@ class Evaluation {
     if (kind != MapChange::kGone && kind != MapChange::kAdded) return;
     for (const ChangeTruth::Box& box : kind == MapChange::kGone ? truth_.gone : truth_.added) {
       const Found found = countFound(cloudOf(kind), reported, [&](const Vec3& p) {
-        return box.contains(p, tolerance_m_, -2 * tolerance_m_);
+        return box.contains(p, kBeside_m, -kAboveFloor_m);
       });
       result_.objects.push_back({box.name, kind, found.there, found.found});
     }
