@@ -16,6 +16,8 @@ std::vector<Setting> changeSettings() {
   s.count("min_scans", &S::min_scans, {1, 1000}, "Scans that must agree on a change.");
   s.number("min_persistence_s", &S::min_persistence_s, "s", {0, 1e6},
            "Something added is seen at times that lie so far apart.");
+  s.count("min_object_points", &S::min_object_points, {1, 1'000'000},
+          "Something added or unmapped consists of so many points, 5 cm apart.");
   s.number(
       "min_dominance", &S::min_dominance, "", {1, 1000},
       "Scans that see through something over those that see it, for it to be gone; or the other "

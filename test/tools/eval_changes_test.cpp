@@ -13,7 +13,7 @@ namespace {
 // A table gone from the origin, turned by 90 degrees; a box added at x = 5; a person walking along
 // y = 10; no map beyond x = 20.
 constexpr const char* kTruth = R"({
-  "frame": "map (m)",
+  "frame": "map",
   "objects": [
     {"change": "removed-furniture", "name": "table", "added": [],
      "gone": [{"T_map_box": {"position_m": [0, 0, 0],

@@ -99,7 +99,7 @@ class Evaluation {
         return changedAt(kind, p, tolerance_m_, tolerance_m_);
       });
       const Found found = countFound(cloudOf(kind), reported, [&](const Vec3& p) {
-        return changedAt(kind, p, kBeside_m, -kAboveFloor_m);
+        return changedAt(kind, p, kBeside_m, -kAboveFloor_m) && !isHiddenByGap(kind, p);
       });
       score.there = found.there;
       score.found = found.found;
@@ -127,6 +127,11 @@ class Evaluation {
         }
     }
     return false;
+  }
+
+  // What was added where the map has nothing at all cannot be told from the place itself.
+  bool isHiddenByGap(MapChange kind, const Vec3& p) const {
+    return kind == MapChange::kAdded && changedAt(MapChange::kUnmapped, p, 0, 0);
   }
 
   bool inAny(const std::vector<ChangeTruth::Box>& boxes, const Vec3& p, double margin_m,
