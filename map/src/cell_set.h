@@ -54,7 +54,10 @@ class CellSet {
     return 1ULL << ((cell[0] & 7) + 8 * (cell[1] & 7));
   }
   static std::uint64_t cubeOf(const Cell& cell) {
-    const auto part = [](int c) { return static_cast<std::uint64_t>((c >> 3) + kShift); };
+    const auto part = [](int c) {
+      const int cube = (c >> 3) + kShift;
+      return static_cast<std::uint64_t>(cube);
+    };
     return part(cell[0]) << 42 | part(cell[1]) << 21 | part(cell[2]);
   }
   static Cell lowOf(std::uint64_t cube) {

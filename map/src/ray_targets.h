@@ -80,12 +80,14 @@ class RayTargets {
   static std::uint64_t cubeOf(const Cell& cell) {
     constexpr int kShift = 1 << 20;
     const auto part = [](int c) {
-      return static_cast<std::uint64_t>((c >> 3) + kShift) & 0x1fffffU;
+      const int cube = (c >> 3) + kShift;
+      return static_cast<std::uint64_t>(cube) & 0x1fffffU;
     };
     return part(cell[0]) << 42 | part(cell[1]) << 21 | part(cell[2]);
   }
   static std::size_t inCube(const Cell& cell) {
-    return static_cast<std::size_t>((cell[0] & 7) + 8 * (cell[1] & 7) + 64 * (cell[2] & 7));
+    const auto part = [](int c) { return static_cast<std::size_t>(c & 7); };
+    return part(cell[0]) + 8 * part(cell[1]) + 64 * part(cell[2]);
   }
 
   template <typename Visit>

@@ -124,7 +124,7 @@ std::vector<RayVotes> castVotes(const RayTargets& targets, const ScanRaySource& 
   if (votes.empty()) return votes;
   tbb::task_arena arena(std::max(threads, 1));
   struct OneScan {
-    TimeNs t_ns;
+    TimeNs t_ns = 0;
     std::vector<std::uint32_t> passed, seen;
   };
   for (std::size_t first = 0; first < scans.size(); first += kBatch) {
