@@ -65,11 +65,13 @@ class Section {
 };
 
 // One maker a section, each in its own file.
+std::vector<Setting> changeSettings();
 std::vector<Setting> estimatorSettings();
 std::vector<Setting> frontendSettings();
 std::vector<Setting> imuSettings();
 std::vector<Setting> mapSettings();
 std::vector<Setting> matcherSettings();
+std::vector<Setting> occupancySettings();
 std::vector<Setting> smootherSettings();
 std::vector<Setting> stillnessSettings();
 

@@ -11,8 +11,9 @@ namespace {
 
 std::vector<Setting> buildTable() {
   std::vector<Setting> table;
-  for (auto section : {frontendSettings, imuSettings, mapSettings, matcherSettings,
-                       smootherSettings, stillnessSettings, estimatorSettings}) {
+  for (auto section :
+       {frontendSettings, imuSettings, mapSettings, matcherSettings, smootherSettings,
+        stillnessSettings, estimatorSettings, occupancySettings, changeSettings}) {
     for (Setting& row : section()) table.push_back(std::move(row));
   }
   return table;

@@ -80,11 +80,12 @@ Scan emptyScanOf(const LidarFrame& frame) {
   return scan;
 }
 
-/// Moves all points within range by `move(index, point)`, packed one behind the other. No branch
+/// Moves all points within range by `move(index, point)`, packed one behind the other, and calls
+/// `keep(index, place)` with the place of each, which holds if the point is within range. No branch
 /// depends on the data: which points are out of range cannot be foreseen.
-template <typename Move>
+template <typename Move, typename Keep>
 void moveInRange(const LidarFrame& frame, Gate gate, Scan& scan, DroppedPoints& dropped,
-                 const Move& move) {
+                 const Move& move, const Keep& keep) {
   const std::size_t n = frame.points_lidar.size();
   const Point3f* points = frame.points_lidar.data();
   Point3f* out = scan.points_body.data();
@@ -94,6 +95,7 @@ void moveInRange(const LidarFrame& frame, Gate gate, Scan& scan, DroppedPoints& 
     const float range_sq = p.x * p.x + p.y * p.y + p.z * p.z;
     const Vec4f moved = move(i, p);
     std::memcpy(static_cast<void*>(out + kept), &moved, sizeof moved);
+    keep(i, kept);
     const bool is_near = range_sq < gate.min_sq;
     near += is_near;
     kept += !is_near & (range_sq <= gate.max_sq);
@@ -118,21 +120,32 @@ Scan deskew(const LidarFrame& frame, const ScanMotion& motion, RangeLimits limit
   const auto slots_per_ns =
       static_cast<float>(static_cast<double>(count) / static_cast<double>(frame.duration_ns));
   const auto last = static_cast<std::int32_t>(count - 1);
-  moveInRange(frame, Gate(limits), scan, dropped, [&](std::size_t i, const Point3f& p) {
-    const float place = static_cast<float>(dt_ns[i]) * slots_per_ns;
-    const auto slot = std::min(static_cast<std::int32_t>(place), last);
-    const float ratio = std::min(place - static_cast<float>(slot), 1.0F);
-    const Slot& s = slots[static_cast<std::size_t>(slot)];
-    return s.at.apply(p) + ratio * s.change.apply(p);
-  });
+  scan.ages_s.resize(frame.points_lidar.size() + 1);
+  float* ages_s = scan.ages_s.data();
+  const auto duration = static_cast<float>(duration_s);
+  moveInRange(
+      frame, Gate(limits), scan, dropped,
+      [&](std::size_t i, const Point3f& p) {
+        const float place = static_cast<float>(dt_ns[i]) * slots_per_ns;
+        const auto slot = std::min(static_cast<std::int32_t>(place), last);
+        const float ratio = std::min(place - static_cast<float>(slot), 1.0F);
+        const Slot& s = slots[static_cast<std::size_t>(slot)];
+        return s.at.apply(p) + ratio * s.change.apply(p);
+      },
+      [&](std::size_t i, std::size_t at) {
+        ages_s[at] = duration - 1e-9F * static_cast<float>(dt_ns[i]);
+      });
+  scan.ages_s.resize(scan.points_body.size());
   return scan;
 }
 
 Scan placeOnBody(const LidarFrame& frame, RangeLimits limits, DroppedPoints& dropped) {
   Scan scan = emptyScanOf(frame);
   const Columns T_body_lidar = columnsOf(frame.T_body_lidar);
-  moveInRange(frame, Gate(limits), scan, dropped,
-              [&](std::size_t, const Point3f& p) { return T_body_lidar.apply(p); });
+  moveInRange(
+      frame, Gate(limits), scan, dropped,
+      [&](std::size_t, const Point3f& p) { return T_body_lidar.apply(p); },
+      [](std::size_t, std::size_t) {});
   return scan;
 }
 

@@ -6,6 +6,7 @@
 
 #include "paloc/core/mrpt_pose.h"
 #include "paloc/map/cloud_io.h"
+#include "paloc/map/map_changes.h"
 #include "paloc/tools/command.h"
 #include "paloc/tools/trajectory_csv.h"
 #include "replay_demo.h"
@@ -98,6 +99,7 @@ std::map<std::string, Words> soundCalls(const test::TempDir& dir) {
       {"import kitti", {"import", "kitti", dir / "drive", "-o", dir / "kitti.rawlog"}},
       {"eval traj", {"eval", "traj", truth, truth}},
       {"eval covariance", {"eval", "covariance", truth, dir / "trajectory_cov.csv"}},
+      {"eval changes", {"eval", "changes", dir / "changes.json", dir / "changes.ply"}},
       {"config describe", {"config", "describe"}},
       {"map info", {"map", "info", dir / "demo/map.ply"}},
       {"map locate",
@@ -132,6 +134,8 @@ TEST(Json, IsOneObjectOnStandardOutputAndNothingElse) {
   writeForeignRecordings(dir);
   savePcd(dir / "scan.pcd", test::firstScan(dir / "demo/recording.rawlog"));
   writeCovariantTruth(dir);
+  test::writeFile(dir / "changes.json", R"({"objects": [], "missing_from_map": []})");
+  saveChanges(dir / "changes.ply", {});
 
   CLI::App app;
   const auto commands = allCommands();

@@ -231,6 +231,8 @@ TEST(SettingsTable, HasARowForEveryField) {
   EXPECT_EQ(rowsOf("imu"), test::fieldCount<ImuNoise>());
   EXPECT_EQ(rowsOf("map"), test::fieldCount<MapSettings>());
   EXPECT_EQ(rowsOf("matcher"), test::fieldCount<MatcherSettings>());
+  EXPECT_EQ(rowsOf("octomap"), test::fieldCount<OccupancySettings>());
+  EXPECT_EQ(rowsOf("changes"), test::fieldCount<ChangeSettings>());
   EXPECT_EQ(rowsOf("smoother"), test::fieldCount<SmootherSettings>());
   EXPECT_EQ(rowsOf("stillness"), test::fieldCount<StillnessSettings>());
   // Three of its fields are the sections imu, smoother and stillness.

@@ -171,5 +171,19 @@ TEST(Deskew, SensorPositionIsThatOfTheLidarOnTheBody) {
   EXPECT_LT((scan.sensor_position_body - kLidarPose.position).norm(), 1e-12);
 }
 
+TEST(Deskew, TellsHowOldEachPointIs) {
+  DroppedPoints dropped;
+  LidarFrame frame = scanAlong(test::sway());
+  frame.points_lidar[1] = {0.1F, 0, 0};  // too near: left out of both lists
+  const Scan scan = deskew(frame, ScanMotion(known(test::sway(), true, true)), {0.5, 100}, dropped);
+  EXPECT_EQ(dropped.too_near, 1U);
+  ASSERT_EQ(scan.ages_s.size(), scan.points_body.size());
+  const double duration_s = seconds(frame.duration_ns);
+  EXPECT_NEAR(scan.ages_s[0], duration_s - seconds(frame.dt_ns[0]), 1e-6);
+  EXPECT_NEAR(scan.ages_s[1], duration_s - seconds(frame.dt_ns[2]), 1e-6);
+  EXPECT_NEAR(scan.ages_s.back(), duration_s - seconds(frame.dt_ns.back()), 1e-6);
+  EXPECT_TRUE(placeOnBody(frame, {0.5, 100}, dropped).ages_s.empty());
+}
+
 }  // namespace
 }  // namespace paloc

@@ -8,6 +8,7 @@ std::unique_ptr<Command> makeEvalCommand() {
   std::vector<std::unique_ptr<Command>> commands;
   commands.push_back(makeEvalTrajCommand());
   commands.push_back(makeEvalCovarianceCommand());
+  commands.push_back(makeEvalChangesCommand());
   return std::make_unique<CommandGroup>("eval", "Compare a result with a reference",
                                         std::move(commands));
 }

@@ -7,6 +7,7 @@
 namespace paloc {
 
 // They register themselves below `eval`.
+std::unique_ptr<Command> makeEvalChangesCommand();
 std::unique_ptr<Command> makeEvalCovarianceCommand();
 std::unique_ptr<Command> makeEvalTrajCommand();
 

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <optional>
 
+#include "paloc/core/text.h"
 #include "paloc/core/trajectory_generator.h"
 #include "paloc/map/prior_map.h"
 #include "paloc/map/scan_matcher.h"
@@ -33,7 +34,10 @@ std::vector<Point3f> sampleOf(const PriorMap& map) {
 class Replay {
  public:
   Replay(const ReplayOptions& options, const Config& config, const std::atomic<bool>& interrupt)
-      : options_(options), config_(config), source_(options, config.frontend, interrupt) {
+      : options_(options),
+        config_(config),
+        source_(options, config.frontend, interrupt),
+        scan_map_(options.octomap) {
     if (config.matcher.threads > 1) read_ahead_.emplace(source_);
   }
 
@@ -49,6 +53,7 @@ class Replay {
   void watchDirections();
   void report(const ReplayObserver& observer, const EventBatch& batch);
   void finish();
+  void tellPlace();
   std::vector<StageTimes> allStages() const;
 
   const ReplayOptions& options_;
@@ -155,8 +160,25 @@ void Replay::finish() {
     StageScope stage(&stopwatch_, "map_of_scans");
     outcome_.map_of_scans = scan_map_.build(outcome_.result.trajectory, options_.output_voxel_m);
   }
+  if (options_.octomap && !outcome_.result.trajectory.empty()) {
+    outcome_.place =
+        placeChanges(*map_, scan_map_, outcome_.result.trajectory, config_, &stopwatch_);
+    tellPlace();
+  }
   outcome_.stages = allStages();
   outcome_.wall_s = secondsSince(start_);
+}
+
+void Replay::tellPlace() {
+  const PlaceChanges& place = *outcome_.place;
+  if (place.scans_left_out > 0) {
+    outcome_.notes.push_back(text("octomap.bt reached octomap.max_memory_mb: the last ",
+                                  place.scans_left_out, " scans are not in it"));
+  }
+  if (place.occupancy->raysOutside() > 0) {
+    outcome_.notes.push_back(text("octomap.bt has no room for ", place.occupancy->raysOutside(),
+                                  " rays: its cells reach 2^15 cells to each side"));
+  }
 }
 
 ReplayOutcome Replay::run(const ReplayObserver& observer) {

@@ -93,6 +93,9 @@ class ReplayCommand : public Command {
     replay_->add_option("--stamps", stamps_file_,
                         "besides, poses at the stamps in this file (s, first field of a line): "
                         "trajectory_stamps.*");
+    replay_->add_flag("--octomap", options_.octomap,
+                      "besides, octomap.bt: which space is free and occupied, and "
+                      "map_changes.ply: what differs from the prior map");
     replay_->add_option("-j", threads_, "threads; the result is the same for any number")
         ->check(CLI::Range(1, 256));
     replay_->add_option("-o,--output", output_, "result folder")->capture_default_str();
@@ -179,6 +182,7 @@ class ReplayCommand : public Command {
     if (options_.online) line << " --online";
     if (rate_ != "scan") line << " --rate " << rate_;
     if (!stamps_file_.empty()) line << " --stamps " << stamps_file_;
+    if (options_.octomap) line << " --octomap";
     if (options_.from_s > 0) line << " --from " << options_.from_s;
     if (options_.to_s) line << " --to " << *options_.to_s;
     return line.str();

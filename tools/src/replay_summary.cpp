@@ -86,7 +86,7 @@ nlohmann::ordered_json summaryJson(const ReplayOutcome& outcome) {
                       {"reason", row.reason},
                       {"count", row.count}});
   }
-  return {
+  nlohmann::ordered_json json = {
       {"status", verdict.status},
       {"sentence", verdict.sentence},
       {"poses", result.trajectory.size()},
@@ -118,6 +118,11 @@ nlohmann::ordered_json summaryJson(const ReplayOutcome& outcome) {
         {"factors_dropped", result.repairs.factors_dropped},
         {"reanchored", result.repairs.reanchored}}},
       {"stage_ms", stagesJson(outcome.stages)}};
+  if (outcome.place) {
+    json["octomap"] = octomapJson(*outcome.place);
+    json["changes"] = changesJson(outcome.place->changes);
+  }
+  return json;
 }
 
 std::string summaryText(const ReplayOutcome& outcome) {
@@ -139,6 +144,9 @@ std::string summaryText(const ReplayOutcome& outcome) {
   if (summary.poses > 0) {
     out += formatted("tilt of the map  %.3f deg against gravity (1 sigma %.3f deg)\n",
                      degrees(summary.map_tilt_rad), degrees(summary.map_tilt_sigma_rad));
+  }
+  if (outcome.place) {
+    out += "changes          " + changesSentence(outcome.place->changes) + '\n';
   }
   out += unusedText(outcome);
   out += formatted("repairs          %llu\n",

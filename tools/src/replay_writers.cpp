@@ -54,6 +54,11 @@ ReportData reportOf(const ReplayOptions& options, const Config& config,
       {"summary.json", "the figures of this report"},
       {"config_effective.yaml", "all settings"},
       {"map.ply", "the deskewed scans in the map's frame"}};
+  if (outcome.place) {
+    data.output_files.emplace_back("octomap.bt", "free and occupied space (OctoMap)");
+    data.output_files.emplace_back("map_changes.ply", "what differs from the prior map");
+    data.changes = changesSentence(outcome.place->changes);
+  }
   return data;
 }
 
@@ -72,6 +77,10 @@ void writeResult(const ResultFolder& folder, const ReplayOptions& options, const
   writeReport(folder.file("report.html"), reportOf(options, config, outcome, command_line));
   if (!outcome.map_of_scans.empty()) {  // the largest comes last, should the disk become full
     savePly(folder.file("map.ply"), outcome.map_of_scans, "deskewed scans in the map's frame");
+  }
+  if (outcome.place) {
+    outcome.place->occupancy->save(folder.file("octomap.bt"));
+    saveChanges(folder.file("map_changes.ply"), outcome.place->changes);
   }
 }
 

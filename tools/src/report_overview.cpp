@@ -85,9 +85,13 @@ std::string keyFigures(const ReportData& data, const ReportSummary& s) {
 }
 
 std::string notesSection(const ReportData& data) {
-  if (data.notes.empty()) return "";
+  if (data.notes.empty() && data.changes.empty()) return "";
   std::string html =
       "<section aria-labelledby=\"notes\">\n<h2 id=\"notes\">Notes</h2>\n<ul class=\"notes\">\n";
+  if (!data.changes.empty()) {
+    html +=
+        "<li>Differs from the prior map (map_changes.ply): " + escapeHtml(data.changes) + "</li>\n";
+  }
   for (const std::string& note : data.notes) html += "<li>" + escapeHtml(note) + "</li>\n";
   return html + "</ul>\n</section>\n";
 }

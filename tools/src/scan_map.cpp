@@ -28,11 +28,13 @@ void ScanMap::add(const OdometryFrame& frame) {
 
   const std::vector<Point3f>& points = frame.scan->points_body;
   const std::size_t stride = std::max<std::size_t>(1, points.size() / kPointsPerScan);
-  ThinScan thin{frame.t_ns, {}};
+  ThinScan thin{frame.t_ns, {}, {}, frame.scan->sensor_position_body};
   thin.points_body.reserve(points.size() / stride + 1);
+  const bool keep_ages = keep_ages_ && !frame.scan->ages_s.empty();
   // A different phase for each scan, so that the same rays are not left out every time.
   for (std::size_t k = scans_.size() % stride; k < points.size(); k += stride) {
     thin.points_body.push_back(points[k]);
+    if (keep_ages) thin.ages_s.push_back(frame.scan->ages_s[k]);
   }
   scans_.push_back(std::move(thin));
 }
@@ -41,10 +43,8 @@ PointCloud ScanMap::build(const std::vector<TrajectoryPoint>& trajectory, double
   PointCloud cloud;
   if (!trajectory.empty()) cloud.origin = fromMrpt(trajectory.front().T_map_body).position;
   for (const ThinScan& scan : scans_) {
-    const auto at =
-        std::lower_bound(trajectory.begin(), trajectory.end(), scan.t_ns,
-                         [](const TrajectoryPoint& point, TimeNs t) { return point.t_ns < t; });
-    if (at == trajectory.end() || at->t_ns != scan.t_ns || at->flag == PoseFlag::kLost) continue;
+    const TrajectoryPoint* at = usablePoint(trajectory, scan.t_ns);
+    if (!at) continue;
     const Pose T_map_body = fromMrpt(at->T_map_body);
     const Eigen::Matrix3f rotation = T_map_body.rotation.cast<float>();
     const Eigen::Vector3f position = (T_map_body.position - cloud.origin).cast<float>();
@@ -61,6 +61,14 @@ PointCloud ScanMap::build(const std::vector<TrajectoryPoint>& trajectory, double
   }
   cloud.points.swap(kept);
   return cloud;
+}
+
+const TrajectoryPoint* usablePoint(const std::vector<TrajectoryPoint>& trajectory, TimeNs t_ns) {
+  const auto at =
+      std::lower_bound(trajectory.begin(), trajectory.end(), t_ns,
+                       [](const TrajectoryPoint& point, TimeNs t) { return point.t_ns < t; });
+  const bool usable = at != trajectory.end() && at->t_ns == t_ns && at->flag != PoseFlag::kLost;
+  return usable ? &*at : nullptr;
 }
 
 }  // namespace paloc

@@ -7,8 +7,10 @@
 #include "paloc/core/estimator_settings.h"
 #include "paloc/core/export.h"
 #include "paloc/frontends/frontend_settings.h"
+#include "paloc/map/change_settings.h"
 #include "paloc/map/map_settings.h"
 #include "paloc/map/matcher_settings.h"
+#include "paloc/map/occupancy_settings.h"
 
 namespace paloc {
 
@@ -18,6 +20,8 @@ struct Config {
   FrontendSettings frontend;
   MapSettings map;
   MatcherSettings matcher;
+  OccupancySettings octomap;
+  ChangeSettings changes;
   EstimatorSettings estimator;  ///< its parts `imu` and `smoother` are sections of their own
 };
 

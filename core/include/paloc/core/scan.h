@@ -16,6 +16,8 @@ struct Scan {
   Vec3 sensor_position_body = Vec3::Zero();  ///< where the rays start (m)
   /// How many returns each point is the mean of, if the scan has been averaged; else empty.
   std::vector<std::uint16_t> returns = {};
+  /// How long before `end_ns` each point was measured (s), where its time is known; else empty.
+  std::vector<float> ages_s = {};
 };
 
 }  // namespace paloc

@@ -13,6 +13,7 @@
 #include "paloc/core/trajectory.h"
 #include "paloc/core/unused_counts.h"
 #include "paloc/map/point_cloud.h"
+#include "paloc/tools/place_changes.h"
 #include "paloc/tools/stage_stopwatch.h"
 #include "paloc/tools/verdict.h"
 
@@ -29,6 +30,7 @@ struct ReplayOptions {
   bool online = false;                ///< the result is what left the fixed-lag window
   bool keep_imu = false;              ///< the outcome holds all IMU samples, for dense output
   double output_voxel_m = 0.05;       ///< of the map made of the scans
+  bool octomap = false;  ///< the outcome holds the occupancy of the place, and what has changed
 };
 
 /// How far a replay is, for the progress line.
@@ -54,6 +56,7 @@ struct ReplayOutcome {
   RunEnd end;
   ImuBuffer imu;  ///< all samples, if they were to be kept
   PointCloud map_of_scans;
+  std::optional<PlaceChanges> place;      ///< if it was asked for and there is a trajectory
   std::vector<Point3f> prior_map_sample;  ///< relative to its origin (m), for the report's picture
   Vec3 prior_map_origin = Vec3::Zero();   ///< in the map frame (m)
   std::size_t prior_map_points = 0;

@@ -48,6 +48,7 @@ struct ReportData {
 
   std::vector<UnusedCounts::Row> unused;  ///< observations not used, and why
   std::vector<std::string> notes;         ///< sentences for the user
+  std::string changes;  ///< what differs from the map, in one line; empty: was not looked for
 
   std::vector<ReportStage> stages;
   double wall_time_s = 0;       ///< of the whole run; 0 if not measured
