@@ -17,7 +17,7 @@ constexpr double kMotionM = 0.01, kMotionRad = 0.002;
 }  // namespace
 
 // How many scans in a row, this one among them, agree about a direction. The difference is that of
-// the two matches less the motion between them (position in the map, rotation in the body).
+// the two matches less the motion between them (both in the map frame).
 int FewPointDirections::scansAgreeing(const Seen& now, const Vec6& difference_map) const {
   const auto same = std::find_if(seen_.begin(), seen_.end(), [&now](const Seen& before) {
     return before.kind == now.kind && std::abs(before.axis_map.dot(now.axis_map)) > kSameAxis;

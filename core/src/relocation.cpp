@@ -15,8 +15,6 @@ constexpr double kReachM = 1.0, kReachRad = 0.2;
 // Those within which a search about the expected pose finds it: further, the whole map is searched.
 constexpr double kSearchReachM = 3.0, kSearchReachRad = 0.8;
 constexpr double kSigmas = 3;
-// A found place does not survive so many scans against it, unless so many times more bear it out.
-constexpr int kObjections = 2, kOutweighing = 4;
 constexpr int kMostDoublings = 5;  // of the time between two searches that fail
 constexpr double kUprightRad = 0.1;
 
@@ -81,18 +79,18 @@ MapMatch Relocation::search(MapMatcher& matcher, const Scan& scan, const Expecte
 // The scan must do as a start itself where the place that was found has moved on to.
 MapMatch Relocation::verify(MapMatcher& matcher, const Scan& scan, const Pose& motion) {
   found_->T_map_body = found_->T_map_body * motion;
-  found_->way_m += motion.position.norm();
+  found_->motion_since = found_->motion_since * motion;
   StartGuess guess = StartGuess::near(toMrpt(found_->T_map_body));
   guess.search_around = false;
   MapMatch match = matcher.locate(scan, guess);
-  ++(match.accepted() ? found_->confirmations : found_->objections);
+  found_->scans.count(match.accepted());
   if (match.accepted()) found_->T_map_body = fromMrpt(match.T_map_body);
-  if (found_->objections >= kObjections &&
-      found_->confirmations < kOutweighing * found_->objections) {
+  if (found_->scans.refuted()) {
     found_.reset();
     ++failures_;
-  } else if (match.accepted() && (found_->confirmations < settings_.start_confirmations ||
-                                  found_->way_m < settings_.start_confirm_motion_m)) {
+  } else if (match.accepted() &&
+             (found_->scans.confirmations < settings_.start_confirmations ||
+              found_->motion_since.position.norm() < settings_.start_confirm_motion_m)) {
     match.refusal = MatchRefusal::kNotConfirmed;
   }
   return match;

@@ -6,9 +6,6 @@
 namespace paloc {
 namespace {
 
-// A pending start does not survive so many scans against it, unless so many times more bear it out:
-// now and then a scan is refused at the right place as well, and a platform may rest for long.
-constexpr int kObjections = 2, kOutweighing = 4;
 constexpr double kSamePosition = 0.1, kSameRotation = 0.03;  // m, rad: two registrations agree
 
 }  // namespace
@@ -44,13 +41,13 @@ void StartTracker::tried(TimeNs t_ns, const StartGuess& guess, const MapMatch& m
   if (guess.search_around) searched_ns_ = t_ns;
   pending_ = match.accepted() && match.searched;
   motion_at_start_ = motion_since_first_;
-  confirmations_ = objections_ = 0;
+  scans_ = {};
 }
 
 bool StartTracker::confirm(const MapMatch& match) {
   if (!pending_ || match.refusal == MatchRefusal::kNoScan) return true;
-  ++(match.accepted() ? confirmations_ : objections_);
-  if (objections_ >= kObjections && confirmations_ < kOutweighing * objections_) return false;
+  scans_.count(match.accepted());
+  if (scans_.refuted()) return false;
   // Scans from the same spot say the same again: some way must lie between.
   const Pose moved = motion_at_start_.inverse() * motion_since_first_;
   pending_ = !confirmedEnough() || moved.position.norm() < settings_.start_confirm_motion_m;

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "paloc/core/confirmation.h"
 #include "paloc/core/estimator_settings.h"
 #include "paloc/core/export.h"
 #include "paloc/core/map_matcher.h"
@@ -39,8 +40,8 @@ class PALOC_EXPORT Relocation {
  private:
   struct Found {
     Pose T_map_body;
-    int confirmations = 0, objections = 0;
-    double way_m = 0;
+    Confirmation scans = {};
+    Pose motion_since = {};
   };
 
   MapMatch search(MapMatcher& matcher, const Scan& scan, const ExpectedPose& expected);

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "paloc/core/confirmation.h"
 #include "paloc/core/estimator_settings.h"
 #include "paloc/core/map_matcher.h"
 #include "paloc/core/pose.h"
@@ -39,7 +40,7 @@ class PALOC_EXPORT StartTracker {
   bool confirm(const MapMatch& match);
   /// A start that is still pending at the end: believed if enough scans bore it out, although none
   /// from elsewhere.
-  bool confirmedEnough() const { return confirmations_ >= settings_.start_confirmations; }
+  bool confirmedEnough() const { return scans_.confirmations >= settings_.start_confirmations; }
   /// It is given up.
   void drop();
 
@@ -52,7 +53,8 @@ class PALOC_EXPORT StartTracker {
   std::optional<Pose> T_odom_body_last_;
   Pose motion_since_first_, motion_at_start_;
   std::optional<TimeNs> searched_ns_;
-  int attempts_ = 0, confirmations_ = 0, objections_ = 0;
+  int attempts_ = 0;
+  Confirmation scans_;  // since the last start
   bool pending_ = false;
   MatchRefusal last_refusal_ = MatchRefusal::kNone;
 };
