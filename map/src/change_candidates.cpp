@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "parallel_chunks.h"
+#include "point_vector.h"
 #include "voxel_key.h"
 
 namespace paloc {
@@ -15,10 +16,6 @@ constexpr double kVoxel_m = 0.05;
 constexpr double kNearSurface_m = 0.15;  // a plane of the map reaches this far beyond its points
 constexpr double kAbout_m = 0.15;
 constexpr double kThickest_m = 0.03;
-
-Vec3 toVec(const Point3f& p) {
-  return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
-}
 
 class Explainer {
  public:

@@ -1,4 +1,5 @@
 #include "map_coverage.h"
+#include "point_vector.h"
 
 #include <cmath>
 #include <numbers>
@@ -13,15 +14,6 @@ constexpr double kAligned = 0.95;  // of normals of one plane
 constexpr double kOffPlane_m = 0.08;
 constexpr double kReaches_m[] = {0.25, 0.5, 0.75, 1.0};  // over a shadow of the survey
 constexpr int kDirections = 8;
-
-Point3f toPoint(const Vec3& v) {
-  const Eigen::Vector3f f = v.cast<float>();
-  return {f.x(), f.y(), f.z()};
-}
-
-Vec3 toVec(const Point3f& p) {
-  return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
-}
 
 Vec3 normalOf(const MapPlane& plane) {
   return {static_cast<double>(plane.nx), static_cast<double>(plane.ny),

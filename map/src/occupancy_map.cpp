@@ -8,6 +8,7 @@
 #include "cell_set.h"
 #include "cell_walk.h"
 #include "output_file.h"
+#include "point_vector.h"
 
 namespace paloc {
 namespace {
@@ -22,10 +23,6 @@ Vec3 treeOrigin(const Vec3& rays_origin, double resolution_m) {
   const double reach_m = 0.75 * kHalfCells * resolution_m;
   if (rays_origin.cwiseAbs().maxCoeff() < reach_m) return Vec3::Zero();
   return kRound_m * (rays_origin / kRound_m).array().round().matrix();
-}
-
-Vec3 toVec(const Point3f& p) {
-  return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
 }
 
 bool isInside(const Vec3& cells) {

@@ -7,6 +7,7 @@
 #include "lanes4.h"
 #include "paloc/map/map_plane.h"
 #include "plane_moments.h"
+#include "point_vector.h"
 
 namespace paloc {
 namespace {
@@ -23,10 +24,6 @@ constexpr float kNotPlanar = -1.0F;
 constexpr double kConsensusWithin = 3, kConsensusShare = 0.5, kConsensusClean = 2.25;
 constexpr std::size_t kConsensusPoints = 8;
 constexpr float kConsensusSine = 0.3F;
-
-Vec3 toVec(const Point3f& p) {
-  return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
-}
 
 // Moments of the points whose height over the plane (in `heights`, empty: all) lies in [low, high].
 PlaneMoments moments(std::span<const Point3f> points, std::span<const float> heights, float low,

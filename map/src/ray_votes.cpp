@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "parallel_chunks.h"
+#include "point_vector.h"
 
 namespace paloc {
 namespace {
@@ -18,10 +19,6 @@ constexpr double kNear_m = 0.3;            // no target this near to the sensor
 constexpr double kNoPlaneClear_m = 0.1;
 constexpr double kAbout_m = 0.15;  // neighbours that vote together
 constexpr double kSameNormal = 0.8;
-
-Vec3 toVec(const Point3f& p) {
-  return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
-}
 
 double offPlane(const RayTarget& target, const Vec3& p) {
   return target.normal().dot(p - target.position()) - static_cast<double>(target.offset_m);

@@ -7,6 +7,7 @@
 
 #include "alignment_step.h"
 #include "parallel_chunks.h"
+#include "point_vector.h"
 
 namespace paloc {
 namespace {
@@ -48,14 +49,6 @@ class AddTime {
   double& sum_s_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
-
-Vec3 toVec(const Point3f& p) {
-  return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
-}
-
-Point3f toPoint(const Vec3& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
-}
 
 Pose movedInBody(const Pose& pose, const Vec6& delta) {
   Vec6 in_map = delta;
