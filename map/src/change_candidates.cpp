@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "parallel_chunks.h"
+#include "plane_fit.h"
 #include "point_vector.h"
 #include "voxel_key.h"
 
@@ -132,21 +133,17 @@ void fitPlanesTo(RayTargets& targets, int threads) {
   std::vector<MapPlane> planes(targets.size());
   tbb::task_arena arena(std::max(threads, 1));
   forEachChunk(arena, targets.size(), kChunk, [&](std::size_t, std::size_t begin, std::size_t end) {
-    std::vector<Point3f> about;
-    std::vector<float> scratch;
+    NearPoints about;
+    PlaneFit fit(limits);
     for (std::size_t i = begin; i < end; ++i) {
       const Point3f& p = targets[static_cast<std::uint32_t>(i)].point;
       about.clear();
       targets.near(toVec(p), kAbout_m, [&](std::uint32_t other) {
         const Point3f& q = targets[other].point;
-        about.push_back({q.x - p.x, q.y - p.y, q.z - p.z});
+        about.add(q.x - p.x, q.y - p.y, q.z - p.z);
       });
-      const auto length_sq = [](const Point3f& q) { return q.x * q.x + q.y * q.y + q.z * q.z; };
-      std::stable_sort(about.begin(), about.end(), [&](const Point3f& a, const Point3f& b) {
-        return length_sq(a) < length_sq(b);
-      });
-      scratch.resize(about.size());
-      planes[i] = fitPlane(about, limits, scratch);
+      about.close();
+      planes[i] = fit(about, static_cast<float>(kAbout_m * kAbout_m));
     }
   });
   for (std::size_t i = 0; i < planes.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <sstream>
+#include <vector>
 
 #include "paloc/core/errors.h"
 #include "parallel_chunks.h"
@@ -47,9 +48,9 @@ Grid gridAbout(const PointCloud& cloud, double edge, const std::string& name) {
   return {corner(low.x), corner(low.y), corner(low.z), static_cast<int>(std::bit_width(most))};
 }
 
-std::vector<KeyedIndex> sortedKeys(const PointCloud& cloud, double edge, const Grid& grid,
-                                   tbb::task_arena& arena) {
-  std::vector<KeyedIndex> keyed(cloud.size());
+RawArray<KeyedIndex> sortedKeys(const PointCloud& cloud, double edge, const Grid& grid,
+                                tbb::task_arena& arena) {
+  RawArray<KeyedIndex> keyed(cloud.size());
   std::vector<std::uint64_t> largest(chunkCount(cloud.size(), kChunk));
   const double inverse = 1 / edge;
   const auto number = [inverse](float value, double from) {
@@ -90,7 +91,7 @@ class Mean {
 };
 
 // The means of the runs of one key that begin in [begin, end).
-std::vector<Point3f> meansOfRuns(const PointCloud& cloud, const std::vector<KeyedIndex>& keyed,
+std::vector<Point3f> meansOfRuns(const PointCloud& cloud, const RawArray<KeyedIndex>& keyed,
                                  bool merge, std::size_t begin, std::size_t end) {
   std::vector<Point3f> means;
   means.reserve(end - begin);
@@ -109,11 +110,10 @@ std::vector<Point3f> meansOfRuns(const PointCloud& cloud, const std::vector<Keye
 
 }  // namespace
 
-std::vector<Point3f> thinAlongCurve(const PointCloud& cloud, double voxel_m, tbb::task_arena& arena,
-                                    const std::string& name) {
+RawArray<Point3f> thinAlongCurve(const PointCloud& cloud, double voxel_m, tbb::task_arena& arena,
+                                 const std::string& name) {
   const double edge = voxel_m > 0 ? voxel_m : kOrderEdgeM;
-  const std::vector<KeyedIndex> keyed =
-      sortedKeys(cloud, edge, gridAbout(cloud, edge, name), arena);
+  const RawArray<KeyedIndex> keyed = sortedKeys(cloud, edge, gridAbout(cloud, edge, name), arena);
   std::vector<std::vector<Point3f>> parts(chunkCount(keyed.size(), kChunk));
   forEachChunk(arena, keyed.size(), kChunk,
                [&](std::size_t chunk, std::size_t begin, std::size_t end) {
@@ -121,10 +121,9 @@ std::vector<Point3f> thinAlongCurve(const PointCloud& cloud, double voxel_m, tbb
                });
   std::vector<std::size_t> starts{0};
   for (const auto& part : parts) starts.push_back(starts.back() + part.size());
-  std::vector<Point3f> kept(starts.back());
+  RawArray<Point3f> kept(starts.back());
   forEachChunk(arena, parts.size(), 1, [&](std::size_t part, std::size_t, std::size_t) {
-    std::copy(parts[part].begin(), parts[part].end(),
-              kept.begin() + static_cast<std::ptrdiff_t>(starts[part]));
+    std::copy(parts[part].begin(), parts[part].end(), kept.begin() + starts[part]);
   });
   return kept;
 }

@@ -3,10 +3,10 @@
 #include <tbb/task_arena.h>
 
 #include <string>
-#include <vector>
 
 #include "paloc/core/types.h"
 #include "paloc/map/point_cloud.h"
+#include "raw_array.h"
 
 namespace paloc {
 
@@ -14,7 +14,7 @@ namespace paloc {
 /// replaced by their centroid (voxel_m = 0: all kept, as they are). Neighbours in space are near in
 /// memory, for the sake of every later search. Throws IoError (with `name`) when the cloud spans
 /// more than 2^21 voxels.
-std::vector<Point3f> thinAlongCurve(const PointCloud& cloud, double voxel_m, tbb::task_arena& arena,
-                                    const std::string& name);
+RawArray<Point3f> thinAlongCurve(const PointCloud& cloud, double voxel_m, tbb::task_arena& arena,
+                                 const std::string& name);
 
 }  // namespace paloc

@@ -1,98 +1,96 @@
 #include "neighbourhood.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace paloc {
 namespace {
 
-constexpr float kFar = 1e15F;  // its square is finite
+constexpr int kMaxGuesses = 8;
+
+Float4 normSq(const Float4& x, const Float4& y, const Float4& z) { return x * x + y * y + z * z; }
 
 }  // namespace
 
-void Neighbourhood::append(const PointBlock& block, float reach_sq) {
-  if (x_.size() < size_ + 2 * PointBlock::kPoints) {
-    x_.resize(2 * (size_ + 2 * PointBlock::kPoints));
-    y_.resize(x_.size());
-    z_.resize(x_.size());
-  }
-  for (std::size_t at = 0; at < PointBlock::kPoints; at += 4) {
-    const Float4 x = load4(block.x + at) - centre_.x, y = load4(block.y + at) - centre_.y,
-                 z = load4(block.z + at) - centre_.z;
-    unsigned bits = bitsOf(x * x + y * y + z * z < reach_sq);
-    if (bits == 0xf) {
-      store4(x_.data() + size_, x), store4(y_.data() + size_, y), store4(z_.data() + size_, z);
-      size_ += 4;
-      continue;
-    }
-    for (; bits != 0; bits &= bits - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-      x_[size_] = x[lane], y_[size_] = y[lane], z_[size_] = z[lane];
-      ++size_;
-    }
-  }
-}
-
 void Neighbourhood::gather(const Point3f& centre, float reach_m) {
-  centre_ = centre;
-  size_ = 0;
-  const float reach_sq = reach_m * reach_m;
-  index_.visitNear(centre, reach_sq, [&](const PointBlock& block) { append(block, reach_sq); });
-  if (x_.size() < size_ + 4) x_.resize(size_ + 4), y_.resize(size_ + 4), z_.resize(size_ + 4);
-  for (std::size_t i = size_; i < size_ + 4; ++i) x_[i] = y_[i] = z_[i] = kFar;
-}
-
-float Neighbourhood::distanceSq(const Point3f& from, std::size_t count) {
-  if (count > size_) return std::numeric_limits<float>::infinity();
-  distances_sq_.resize(size_ + 4);
-  for (std::size_t at = 0; at < size_; at += 4) {
-    const Float4 dx = load4(x_.data() + at) - from.x, dy = load4(y_.data() + at) - from.y,
-                 dz = load4(z_.data() + at) - from.z;
-    store4(distances_sq_.data() + at, dx * dx + dy * dy + dz * dz);
-  }
-  const auto wanted = distances_sq_.begin() + static_cast<std::ptrdiff_t>(count - 1);
-  std::nth_element(distances_sq_.begin(), wanted,
-                   distances_sq_.begin() + static_cast<std::ptrdiff_t>(size_));
-  return *wanted;
-}
-
-Neighbourhood::Sums Neighbourhood::sumsWithin(const Point3f& from, float radius_sq) const {
-  Float4 count{}, sx{}, sy{}, sz{}, xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
-  const Float4 one = all4(1);
-  for (std::size_t at = 0; at < size_; at += 4) {
-    Float4 x = load4(x_.data() + at) - from.x, y = load4(y_.data() + at) - from.y,
-           z = load4(z_.data() + at) - from.z;
-    const Mask4 within = x * x + y * y + z * z <= radius_sq;
-    if (bitsOf(within) == 0) continue;
-    x = where(within, x), y = where(within, y), z = where(within, z);
-    count += where(within, one);
-    sx += x, sy += y, sz += z;
-    xx += x * x, xy += x * y, xz += x * z;
-    yy += y * y, yz += y * z, zz += z * z;
-  }
-  const auto total = [](const Float4& lanes) { return static_cast<double>(sumOf(lanes)); };
-  return {{total(sx), total(sy), total(sz), total(xx), total(xy), total(xz), total(yy), total(yz),
-           total(zz)},
-          static_cast<int>(sumOf(count))};
-}
-
-std::span<const Point3f> Neighbourhood::pointsWithin(const Point3f& from, float radius_sq) {
-  neighbours_.clear();
-  for (std::size_t at = 0; at < size_; at += 4) {
-    const Float4 x = load4(x_.data() + at) - from.x, y = load4(y_.data() + at) - from.y,
-                 z = load4(z_.data() + at) - from.z;
-    const Float4 distance_sq = x * x + y * y + z * z;
-    for (unsigned bits = bitsOf(distance_sq <= radius_sq); bits != 0; bits &= bits - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-      neighbours_.push_back({{x[lane], y[lane], z[lane]}, distance_sq[lane]});
-    }
-  }
-  std::nth_element(
-      neighbours_.begin(),
-      neighbours_.begin() + static_cast<std::ptrdiff_t>(neighbours_.size() / 2), neighbours_.end(),
-      [](const Neighbour& a, const Neighbour& b) { return a.distance_sq < b.distance_sq; });
   points_.clear();
-  for (const Neighbour& neighbour : neighbours_) points_.push_back(neighbour.relative);
-  return points_;
+  const float reach_sq = reach_m * reach_m;
+  index_.visitNear(centre, reach_sq, [&](const PointBlock& block) {
+    for (std::size_t at = 0; at < PointBlock::kPoints; at += 4) {
+      const Float4 x = load4(block.x + at) - centre.x, y = load4(block.y + at) - centre.y,
+                   z = load4(block.z + at) - centre.z;
+      const unsigned bits = bitsOf(normSq(x, y, z) < reach_sq);
+      if (bits != 0) points_.add(x, y, z, bits);
+    }
+  });
+  points_.close();
+}
+
+std::size_t Neighbourhood::countWithin(float radius_sq) const {
+  Mask4 count{};
+  for (std::size_t at = 0; at < points_.size(); at += 4) {
+    count -= load4(distances_sq_.data() + at) <= radius_sq;  // a lane that holds is -1
+  }
+  return static_cast<std::size_t>(count[0] + count[1] + count[2] + count[3]);
+}
+
+// On a surface the number of points grows with the square of the radius.
+float Neighbourhood::radiusSqOf(std::size_t count, const Eigen::Vector3f& from, float within_sq,
+                                float about_sq) {
+  distances_sq_.resize(points_.size() + 4);
+  std::size_t at = 0;
+  points_.forEach4([&](Float4 x, Float4 y, Float4 z) {
+    x -= from.x(), y -= from.y(), z -= from.z();
+    store4(distances_sq_.data() + at, normSq(x, y, z));
+    at += 4;
+  });
+  if (countWithin(within_sq) < count) return std::numeric_limits<float>::infinity();
+  const std::size_t most = count + count / 8;
+  float radius_sq = std::min(about_sq, within_sq);
+  for (int i = 0; i < kMaxGuesses && radius_sq > 0; ++i) {
+    const std::size_t within = countWithin(radius_sq);
+    if (within >= count && within <= most) return radius_sq;
+    const float wanted = static_cast<float>(count + most) / 2;
+    radius_sq *= wanted / static_cast<float>(std::max<std::size_t>(within, 1));
+    radius_sq = std::min(radius_sq, within_sq);
+  }
+  const auto last = distances_sq_.begin() + static_cast<std::ptrdiff_t>(count - 1);
+  std::nth_element(distances_sq_.begin(), last,
+                   distances_sq_.begin() + static_cast<std::ptrdiff_t>(points_.size()));
+  return *last;
+}
+
+MomentSums Neighbourhood::sumsWithin(const Eigen::Vector3f& from, float radius_sq) const {
+  return points_.sumsWhere(from, [radius_sq](const Float4& x, const Float4& y, const Float4& z) {
+    return normSq(x, y, z) <= radius_sq;
+  });
+}
+
+Neighbourhood::Face Neighbourhood::faceWithin(const Eigen::Vector3f& from, float radius_sq,
+                                              const Eigen::Vector3f& normal, float height_m,
+                                              float within_m) const {
+  Mask4 count{};
+  const float within_sq = within_m * within_m;
+  Face face;
+  face.sums = points_.sumsWhere(from, [&](const Float4& x, const Float4& y, const Float4& z) {
+    const Mask4 near = normSq(x, y, z) <= radius_sq;
+    count -= near;  // a lane that holds is -1
+    const Float4 off = x * normal.x() + y * normal.y() + z * normal.z() - height_m;
+    return near & (off * off <= within_sq);
+  });
+  face.count = count[0] + count[1] + count[2] + count[3];
+  return face;
+}
+
+const NearPoints& Neighbourhood::pointsWithin(const Eigen::Vector3f& from, float radius_sq) {
+  selected_.clear();
+  points_.forEach4([&](Float4 x, Float4 y, Float4 z) {
+    x -= from.x(), y -= from.y(), z -= from.z();
+    const unsigned bits = bitsOf(normSq(x, y, z) <= radius_sq);
+    if (bits != 0) selected_.add(x, y, z, bits);
+  });
+  selected_.close();
+  return selected_;
 }
 
 }  // namespace paloc

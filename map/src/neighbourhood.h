@@ -1,9 +1,8 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
-#include "plane_moments.h"
+#include "near_points.h"
 #include "point_index.h"
 
 namespace paloc {
@@ -16,38 +15,34 @@ class Neighbourhood {
 
   /// Gathers all points nearer to `centre` than `reach_m`.
   void gather(const Point3f& centre, float reach_m);
-  const Point3f& centre() const { return centre_; }
-  std::size_t size() const { return size_; }
+  std::size_t size() const { return points_.size(); }
 
-  /// The square of the distance from `from` to its `count`-th nearest point (the first may be
-  /// itself); infinite if there are fewer.
-  float distanceSq(const Point3f& from, std::size_t count);
+  /// The square of a radius about `from` that holds `count` points (one of them may be `from`
+  /// itself) and few more, at most `within_sq`; infinite if that holds fewer. `about_sq`: near to
+  /// what is expected.
+  float radiusSqOf(std::size_t count, const Eigen::Vector3f& from, float within_sq, float about_sq);
 
-  struct Sums {
-    MomentSums sums{};
-    int count = 0;
+  /// Moments, about `from`, of the points nearer to it than that.
+  MomentSums sumsWithin(const Eigen::Vector3f& from, float radius_sq) const;
+
+  struct Face {
+    MomentSums sums;  // of the points on it, about the place
+    int count = 0;    // of all points within the radius
   };
-  /// Sums over the points nearer to `from` than that, relative to `from`.
-  Sums sumsWithin(const Point3f& from, float radius_sq) const;
+  /// The points nearer to `from` than that whose height over the plane through it is no more than
+  /// `within_m` off `height_m`.
+  Face faceWithin(const Eigen::Vector3f& from, float radius_sq, const Eigen::Vector3f& normal,
+                  float height_m, float within_m) const;
 
-  /// These points themselves, relative to `from`, the nearer half first.
-  std::span<const Point3f> pointsWithin(const Point3f& from, float radius_sq);
+  /// These points themselves, relative to `from`.
+  const NearPoints& pointsWithin(const Eigen::Vector3f& from, float radius_sq);
 
  private:
-  struct Neighbour {
-    Point3f relative;
-    float distance_sq;
-  };
-
-  void append(const PointBlock& block, float reach_sq);
+  std::size_t countWithin(float radius_sq) const;
 
   const PointIndex& index_;
-  Point3f centre_{};
-  std::size_t size_ = 0;
-  std::vector<float> x_, y_, z_;  // filled up to whole lanes with points too far away to count
+  NearPoints points_, selected_;
   std::vector<float> distances_sq_;
-  std::vector<Neighbour> neighbours_;
-  std::vector<Point3f> points_;
 };
 
 }  // namespace paloc

@@ -7,7 +7,7 @@
 
 #include "neighbourhood.h"
 #include "parallel_chunks.h"
-#include "plane_moments.h"
+#include "plane_fit.h"
 #include "wall_faces.h"
 
 namespace paloc {
@@ -21,9 +21,15 @@ constexpr float kSharedOffset = 2.5F, kSharedOffsetM = 5e-4F;
 // And this near to the point it was fitted about, in radii: a plane is worse towards its rim.
 constexpr float kSharedReach = 0.6F;
 
-Point3f operator-(const Point3f& a, const Point3f& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+// A point lies on a face that is this near to it, in thicknesses of a clean surface.
+constexpr float kKnownOffset = 2.5F;
+// The next neighbourhood is gathered within the last one's radius and this much more, so that once
+// is mostly enough.
+constexpr float kRadiusMargin = 1.1F;
 
-float normSq(const Point3f& p) { return p.x * p.x + p.y * p.y + p.z * p.z; }
+using Vec3f = Eigen::Vector3f;
+
+Vec3f toVec(const Point3f& p) { return {p.x, p.y, p.z}; }
 
 /// Fits the planes of one block after the other.
 class BlockFitter {
@@ -33,74 +39,102 @@ class BlockFitter {
         neighbourhood_(index),
         wanted_(static_cast<std::size_t>(std::max(settings.plane_neighbours, 3))),
         limits_{.max_thickness_m = settings.plane_max_thickness_m},
+        fit_(limits_),
         clean_m_(static_cast<float>(limits_.clean_thickness_m)),
         max_radius_m_(static_cast<float>(settings.plane_max_radius_m)) {}
 
   void fit(std::size_t block, PackedPlane* planes);
 
  private:
-  void fitTogether(const Point3f& centre, float half_width_m);
-  float gatherAbout(const Point3f& centre, const Point3f& middle, float half_width_m);
-  MapPlane planeAt(const Point3f& from, float radius_sq);
+  using Points = std::array<Vec3f, PointBlock::kPoints>;
+
+  void fitTogether(const Vec3f& centre, float half_width_m);
+  float gatherAbout(const Vec3f& centre, const Vec3f& middle, float half_width_m);
+  MapPlane planeAt(std::size_t point, float radius_sq);
+  bool fitOnKnownFace(std::size_t point, float radius_sq);
   void share(std::size_t from, float radius_sq, std::array<bool, PointBlock::kPoints>& fitted);
 
   const PointIndex& index_;
   Neighbourhood neighbourhood_;
   std::size_t wanted_;
   PlaneFitLimits limits_;
+  PlaneFit fit_;
   float clean_m_, max_radius_m_;
-  std::array<Point3f, PointBlock::kPoints> points_{};
+  std::vector<std::size_t> faces_;  // points of the block whose plane is a clean face
+  float last_radius_m_ = 0;         // 0: none yet
+  Points points_{};
   std::array<MapPlane, PointBlock::kPoints> planes_{};
   std::size_t count_ = 0;
-  std::vector<float> scratch_;
 };
 
 // Gathers what the neighbourhoods of the points about a centre can hold; returns their radius.
-float BlockFitter::gatherAbout(const Point3f& centre, const Point3f& middle, float half_width_m) {
-  const float middle_off = std::sqrt(normSq(middle));
-  float radius = std::min(std::max(kFirstRadius * half_width_m, kLeastRadiusM), max_radius_m_);
-  for (;;) {
-    neighbourhood_.gather(centre, half_width_m + radius);
+float BlockFitter::gatherAbout(const Vec3f& centre, const Vec3f& middle, float half_width_m) {
+  const auto limited = [this](float radius) {
+    return std::min(std::max(radius, kLeastRadiusM), max_radius_m_);
+  };
+  const float middle_off = middle.norm();
+  const float first =
+      last_radius_m_ > 0 ? kRadiusMargin * last_radius_m_ : kFirstRadius * half_width_m;
+  for (float radius = limited(first);; radius = limited(kRadiusGrowth * radius)) {
+    neighbourhood_.gather({centre.x(), centre.y(), centre.z()}, half_width_m + radius);
     // Up to here the middle point has seen all its neighbours.
     const float seen = half_width_m + radius - middle_off;
-    const float distance_sq = neighbourhood_.distanceSq(middle, wanted_);
-    if (distance_sq <= seen * seen) {
-      radius = std::min(std::max(std::sqrt(distance_sq), kLeastRadiusM), max_radius_m_);
-      break;
-    }
-    if (radius >= max_radius_m_) break;
-    radius = std::min(kRadiusGrowth * radius, max_radius_m_);
+    const float radius_sq =
+        neighbourhood_.radiusSqOf(wanted_, middle, seen * seen, last_radius_m_ * last_radius_m_);
+    if (std::isfinite(radius_sq)) return last_radius_m_ = limited(std::sqrt(radius_sq));
+    if (radius >= max_radius_m_) return max_radius_m_;
   }
-  return radius;
 }
 
-MapPlane BlockFitter::planeAt(const Point3f& from, float radius_sq) {
-  const Neighbourhood::Sums within = neighbourhood_.sumsWithin(from, radius_sq);
-  if (within.count < std::max(limits_.min_points, 3)) return planeOf({}, limits_);
-  const PlaneMoments moments(within.sums, within.count);
-  if (moments.variances[0] <= limits_.clean_thickness_m * limits_.clean_thickness_m) {
-    return planeOf(moments, limits_);
+// Where the point lies on a face that was found already, but out of its reach: the face's points
+// about the point itself, if these are most of all.
+bool BlockFitter::fitOnKnownFace(std::size_t point, float radius_sq) {
+  for (const std::size_t face : faces_) {
+    const MapPlane& known = planes_[face];
+    const Vec3f normal(known.nx, known.ny, known.nz);
+    const float height = known.offset_m - normal.dot(points_[point] - points_[face]);
+    if (std::abs(height) > kKnownOffset * clean_m_) continue;
+    const Neighbourhood::Face about = neighbourhood_.faceWithin(
+        points_[point], radius_sq, normal, height, PlaneFit::kFaceWithin * clean_m_);
+    if (static_cast<float>(about.sums.count) <
+        PlaneFit::kFaceShare * static_cast<float>(about.count))
+      continue;
+    const PlaneMoments moments(about.sums);
+    const MapPlane plane = planeOf(moments, limits_);
+    if (!plane.planar() || plane.thickness_m > clean_m_) continue;
+    planes_[point] = plane;
+    return true;
   }
-  const std::span<const Point3f> points = neighbourhood_.pointsWithin(from, radius_sq);
-  scratch_.resize(std::max(scratch_.size(), points.size()));
-  return fitPlane(points, limits_, scratch_);
+  return false;
+}
+
+MapPlane BlockFitter::planeAt(std::size_t point, float radius_sq) {
+  const Vec3f& from = points_[point];
+  const PlaneMoments all(neighbourhood_.sumsWithin(from, radius_sq));
+  if (all.variances[0] <= limits_.clean_thickness_m * limits_.clean_thickness_m) {
+    return planeOf(all, limits_);
+  }
+  return fit_(neighbourhood_.pointsWithin(from, radius_sq), radius_sq, all);
 }
 
 // The planes of the points (relative to the centre, none further from it than the half width).
-void BlockFitter::fitTogether(const Point3f& centre, float half_width_m) {
+void BlockFitter::fitTogether(const Vec3f& centre, float half_width_m) {
   std::size_t middle = 0;
   for (std::size_t i = 1; i < count_; ++i) {
-    if (normSq(points_[i]) < normSq(points_[middle])) middle = i;
+    if (points_[i].squaredNorm() < points_[middle].squaredNorm()) middle = i;
   }
   const float radius = gatherAbout(centre, points_[middle], half_width_m);
   const float radius_sq = radius * radius;
   std::array<bool, PointBlock::kPoints> fitted{};
+  faces_.clear();
   for (std::size_t k = 0; k < count_; ++k) {
     const std::size_t at = (middle + k) % count_;  // the middle one first
     if (fitted[at]) continue;
-    planes_[at] = planeAt(points_[at], radius_sq);
+    if (!fitOnKnownFace(at, radius_sq)) planes_[at] = planeAt(at, radius_sq);
     fitted[at] = true;
-    if (planes_[at].planar() && planes_[at].thickness_m <= clean_m_) share(at, radius_sq, fitted);
+    if (!planes_[at].planar() || planes_[at].thickness_m > clean_m_) continue;
+    faces_.push_back(at);
+    share(at, radius_sq, fitted);
   }
 }
 
@@ -109,12 +143,12 @@ void BlockFitter::share(std::size_t from, float radius_sq,
                         std::array<bool, PointBlock::kPoints>& fitted) {
   const MapPlane plane = planes_[from];
   const float near = std::max(kSharedOffset * plane.thickness_m, kSharedOffsetM);
+  const Vec3f normal(plane.nx, plane.ny, plane.nz);
   for (std::size_t i = 0; i < count_; ++i) {
     if (fitted[i]) continue;
-    const Point3f apart = points_[i] - points_[from];
-    const float offset =
-        plane.offset_m - (plane.nx * apart.x + plane.ny * apart.y + plane.nz * apart.z);
-    if (std::abs(offset) > near || normSq(apart) > kSharedReach * kSharedReach * radius_sq)
+    const Vec3f apart = points_[i] - points_[from];
+    const float offset = plane.offset_m - normal.dot(apart);
+    if (std::abs(offset) > near || apart.squaredNorm() > kSharedReach * kSharedReach * radius_sq)
       continue;
     planes_[i] = plane;
     planes_[i].offset_m = offset;
@@ -125,29 +159,27 @@ void BlockFitter::share(std::size_t from, float radius_sq,
 void BlockFitter::fit(std::size_t block, PackedPlane* planes) {
   const std::size_t first = block * PointBlock::kPoints;
   count_ = std::min(PointBlock::kPoints, index_.size() - first);
-  Point3f low = index_.point(static_cast<std::uint32_t>(first)), high = low;
+  Vec3f low = toVec(index_.point(static_cast<std::uint32_t>(first))), high = low;
   for (std::size_t i = 0; i < count_; ++i) {
-    const Point3f p = points_[i] = index_.point(static_cast<std::uint32_t>(first + i));
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    points_[i] = toVec(index_.point(static_cast<std::uint32_t>(first + i)));
+    low = low.cwiseMin(points_[i]), high = high.cwiseMax(points_[i]);
   }
-  const Point3f centre{low.x + (high.x - low.x) / 2, low.y + (high.y - low.y) / 2,
-                       low.z + (high.z - low.z) / 2};
+  const Vec3f centre = low + (high - low) / 2;
   float half_width_sq = 0;
   for (std::size_t i = 0; i < count_; ++i) {
-    half_width_sq = std::max(half_width_sq, normSq(points_[i] - centre));
+    half_width_sq = std::max(half_width_sq, (points_[i] - centre).squaredNorm());
   }
   if (half_width_sq <= max_radius_m_ * max_radius_m_) {
-    for (std::size_t i = 0; i < count_; ++i) points_[i] = points_[i] - centre;
+    for (std::size_t i = 0; i < count_; ++i) points_[i] -= centre;
     fitTogether(centre, std::sqrt(half_width_sq));
     for (std::size_t i = 0; i < count_; ++i) planes[i] = PackedPlane(planes_[i]);
     return;
   }
   // The curve leaps within the block: each point by itself.
-  const std::array<Point3f, PointBlock::kPoints> points = points_;
+  const Points points = points_;
   const std::size_t count = std::exchange(count_, 1);
   for (std::size_t i = 0; i < count; ++i) {
-    points_[0] = {};
+    points_[0] = Vec3f::Zero();
     fitTogether(points[i], 0);
     planes[i] = PackedPlane(planes_[0]);
   }

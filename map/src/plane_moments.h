@@ -7,14 +7,25 @@
 
 namespace paloc {
 
-/// Sums over points: x, y, z, xx, xy, xz, yy, yz, zz (m, m2).
-using MomentSums = std::array<double, 9>;
+/// Sums over points (m, m2).
+struct MomentSums {
+  int count = 0;
+  std::array<double, 3> first{};   // x, y, z
+  std::array<double, 6> second{};  // xx, xy, xz, yy, yz, zz
+
+  void add(double x, double y, double z) {
+    ++count;
+    first[0] += x, first[1] += y, first[2] += z;
+    second[0] += x * x, second[1] += x * y, second[2] += x * z;
+    second[3] += y * y, second[4] += y * z, second[5] += z * z;
+  }
+};
 
 /// Mean and principal axes of some points.
 struct PlaneMoments {
   PlaneMoments() = default;
-  /// At least three points.
-  PlaneMoments(const MomentSums& sums, int points);
+  /// Of at least three points; of fewer, none.
+  explicit PlaneMoments(const MomentSums& sums);
 
   Vec3 centroid = Vec3::Zero();
   Vec3 normal = Vec3::Zero();     // the axis of the least variance

@@ -6,33 +6,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <span>
 #include <vector>
 
 #include "lanes4.h"
 #include "paloc/core/types.h"
+#include "raw_array.h"
 
 namespace paloc {
-
-/// Memory for many objects that are written before they are read.
-template <typename T>
-class RawArray {
- public:
-  RawArray() = default;
-  explicit RawArray(std::size_t size)
-      : data_(std::make_unique_for_overwrite<T[]>(size)), size_(size) {}
-
-  T* data() { return data_.get(); }
-  const T* data() const { return data_.get(); }
-  std::size_t size() const { return size_; }
-  T& operator[](std::size_t i) { return data_[i]; }
-  const T& operator[](std::size_t i) const { return data_[i]; }
-
- private:
-  std::unique_ptr<T[]> data_;
-  std::size_t size_ = 0;
-};
 
 /// Eight points that follow each other on the Hilbert curve, their coordinates side by side. What
 /// is missing in the last block lies too far away to be found.
@@ -74,6 +55,12 @@ class PointIndex {
     const PointBlock& block = blocks_[index / PointBlock::kPoints];
     const std::size_t lane = index % PointBlock::kPoints;
     return {block.x[lane], block.y[lane], block.z[lane]};
+  }
+
+  /// Of a point in one of its blocks.
+  std::uint32_t indexOf(const PointBlock& block, std::size_t lane) const {
+    const auto number = static_cast<std::size_t>(&block - blocks_);
+    return static_cast<std::uint32_t>(number * PointBlock::kPoints + lane);
   }
 
   /// The nearest of the points that `accept(index)` holds for, nearer than the given distance; of

@@ -53,7 +53,7 @@ void requireMemory(std::size_t points, const std::string& name) {
                          text(name, ": a prior map of its ", points, " points"));
 }
 
-RawArray<PointBlock> blocksOf(const std::vector<Point3f>& points, tbb::task_arena& arena) {
+RawArray<PointBlock> blocksOf(const RawArray<Point3f>& points, tbb::task_arena& arena) {
   RawArray<PointBlock> blocks(chunkCount(points.size(), PointBlock::kPoints));
   forEachChunk(arena, blocks.size(), kChunk, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin * PointBlock::kPoints; i < end * PointBlock::kPoints; ++i) {
@@ -100,7 +100,7 @@ std::unique_ptr<PriorMap::Data> PriorMap::prepare(const PointCloud& cloud,
   auto data = std::make_unique<Data>();
   PreparedMap& map = data->map;
   const Stopwatch sorting;
-  const std::vector<Point3f> points = thinAlongCurve(cloud, settings.voxel_m, arena, name);
+  const RawArray<Point3f> points = thinAlongCurve(cloud, settings.voxel_m, arena, name);
   map.blocks = blocksOf(points, arena);
   data->statistics.sort_s = sorting.seconds();
   const Stopwatch indexing;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "parallel_chunks.h"
+#include "raw_array.h"
 
 namespace paloc {
 
@@ -20,13 +21,13 @@ struct KeyedIndex {
 /// Sorts by key, items of one key in their order (least significant digit first). Only the digits
 /// that `largest_key` has are looked at. Several times as fast as a sort by comparison; the result
 /// does not depend on the number of threads.
-inline void radixSort(std::vector<KeyedIndex>& items, std::uint64_t largest_key,
+inline void radixSort(RawArray<KeyedIndex>& items, std::uint64_t largest_key,
                       tbb::task_arena& arena) {
   constexpr int kDigitBits = 11;
   constexpr std::size_t kDigits = 1U << kDigitBits;
   constexpr std::size_t kChunk = 1U << 18;
   using Counts = std::array<std::uint32_t, kDigits>;
-  std::vector<KeyedIndex> sorted(items.size());
+  RawArray<KeyedIndex> sorted(items.size());
   std::vector<Counts> starts(chunkCount(items.size(), kChunk));
   const auto bits = static_cast<int>(std::bit_width(largest_key));
   for (int shift = 0; shift < bits; shift += kDigitBits) {
@@ -48,7 +49,7 @@ inline void radixSort(std::vector<KeyedIndex>& items, std::uint64_t largest_key,
                    for (std::size_t i = begin; i < end; ++i)
                      sorted[next[digit(items[i])]++] = items[i];
                  });
-    items.swap(sorted);
+    std::swap(items, sorted);
   }
 }
 

@@ -20,12 +20,6 @@ constexpr double kMaxThicknessM = 0.15;
 constexpr std::size_t kProbes = 11;  // points that the density is measured at
 constexpr double kFirstProbeM = 0.25, kLastProbeM = 4;
 
-void addPoint(double x, double y, double z, MomentSums& sums) {
-  sums[0] += x, sums[1] += y, sums[2] += z;
-  sums[3] += x * x, sums[4] += x * y, sums[5] += x * z;
-  sums[6] += y * y, sums[7] += y * z, sums[8] += z * z;
-}
-
 }  // namespace
 
 ScanNormals::ScanNormals(std::span<const Point3f> points) : size_(points.size()) {
@@ -67,21 +61,19 @@ double ScanNormals::radiusFor(std::size_t neighbours) const {
 
 Vec3 ScanNormals::at(const Point3f& point, double radius_m) const {
   const auto radius_sq = static_cast<float>(radius_m * radius_m);
-  MomentSums sums{};
-  int count = 0;
+  MomentSums sums;
   for (std::size_t i = 0; i < x_.size(); i += 4) {
     const Float4 dx = load4(x_.data() + i) - point.x, dy = load4(y_.data() + i) - point.y,
                  dz = load4(z_.data() + i) - point.z;
     unsigned near = bitsOf(dx * dx + dy * dy + dz * dz < radius_sq);
     for (; near != 0; near &= near - 1) {
       const int lane = std::countr_zero(near);
-      addPoint(static_cast<double>(dx[lane]), static_cast<double>(dy[lane]),
-               static_cast<double>(dz[lane]), sums);
-      ++count;
+      sums.add(static_cast<double>(dx[lane]), static_cast<double>(dy[lane]),
+               static_cast<double>(dz[lane]));
     }
   }
-  if (count < kMinNeighbours) return Vec3::Zero();
-  const PlaneMoments moments(sums, count);
+  if (sums.count < kMinNeighbours) return Vec3::Zero();
+  const PlaneMoments moments(sums);
   const PlaneFitLimits limits{.max_thickness_m = kMaxThicknessM, .min_points = kMinNeighbours};
   return planeOf(moments, limits).planar() ? moments.normal : Vec3::Zero();
 }

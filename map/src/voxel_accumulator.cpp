@@ -1,5 +1,6 @@
 #include "voxel_accumulator.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -29,7 +30,7 @@ VoxelAccumulator::VoxelAccumulator(double edge_m, const MemoryBudget& budget, st
       inverse_(1 / edge_m),
       budget_(budget),
       name_(std::move(name)),
-      slots_(kFirstSlots, kEmpty) {}
+      slots_(emptySlots(kFirstSlots)) {}
 
 void VoxelAccumulator::require(std::size_t more_bytes) const {
   const std::size_t held = pieces_.size() * kPieceCells * sizeof(Cell) + slots_.size() * 4;
@@ -59,9 +60,15 @@ void VoxelAccumulator::hashAll(std::span<const Point3f> points) {
   }
 }
 
+RawArray<std::uint32_t> VoxelAccumulator::emptySlots(std::size_t count) {
+  RawArray<std::uint32_t> slots(count);
+  std::fill(slots.begin(), slots.end(), kEmpty);
+  return slots;
+}
+
 void VoxelAccumulator::growSlots() {
   require(2 * slots_.size() * sizeof(slots_[0]));
-  std::vector<std::uint32_t> larger(2 * slots_.size(), kEmpty);
+  RawArray<std::uint32_t> larger = emptySlots(2 * slots_.size());
   const std::size_t mask = larger.size() - 1;
   for (std::size_t i = 0; i < size_; ++i) {
     std::size_t at = hashKey(cell(i).key) & mask;
@@ -74,7 +81,7 @@ void VoxelAccumulator::growSlots() {
 void VoxelAccumulator::growCells() {
   require(kPieceCells * sizeof(Cell));
   if (size_ + kPieceCells >= kEmpty) throw IoError(name_ + ": has too many voxels");
-  pieces_.push_back(std::make_unique<Cell[]>(kPieceCells));
+  pieces_.emplace_back(kPieceCells);
 }
 
 VoxelAccumulator::Cell& VoxelAccumulator::find(std::uint64_t key, std::uint64_t hash) {
@@ -87,7 +94,7 @@ VoxelAccumulator::Cell& VoxelAccumulator::find(std::uint64_t key, std::uint64_t 
   if (size_ == pieces_.size() * kPieceCells) growCells();
   slots_[at] = static_cast<std::uint32_t>(size_);
   Cell& fresh = cell(size_++);
-  fresh.key = key;
+  fresh = {key, 0, 0, 0, 0, 0};
   return fresh;
 }
 
@@ -106,31 +113,31 @@ void VoxelAccumulator::add(std::span<const Point3f> points, std::span<const floa
     const auto offset = [&](float value, int axis) {
       return static_cast<float>(static_cast<double>(value) - corner(axis));
     };
-    c.mean.x += (offset(points[i].x, 0) - c.mean.x) * share;
-    c.mean.y += (offset(points[i].y, 1) - c.mean.y) * share;
-    c.mean.z += (offset(points[i].z, 2) - c.mean.z) * share;
+    c.x += (offset(points[i].x, 0) - c.x) * share;
+    c.y += (offset(points[i].y, 1) - c.y) * share;
+    c.z += (offset(points[i].z, 2) - c.z) * share;
     if (!intensity.empty()) c.intensity += (intensity[i] - c.intensity) * share;
   }
 }
 
 void VoxelAccumulator::take(std::vector<Point3f>& points, std::vector<float>* intensity) {
-  std::vector<std::uint32_t>().swap(slots_);
+  slots_ = {};
   require(size_ * (sizeof(Point3f) + (intensity != nullptr ? sizeof(float) : 0)));
   points.reserve(size_);
   if (intensity != nullptr) intensity->reserve(size_);
   for (std::size_t i = 0; i < size_; ++i) {
-    if (i % kPieceCells == 0 && i > 0) pieces_[i / kPieceCells - 1].reset();
+    if (i % kPieceCells == 0 && i > 0) pieces_[i / kPieceCells - 1] = {};
     const Cell& c = cell(i);
     const auto coordinate = [&](float mean, int axis) {
       const std::uint64_t number = c.key >> (2 - axis) * kVoxelBits & kAxisMask;
       return static_cast<float>(cornerOf(number, edge_m_) + static_cast<double>(mean));
     };
-    points.push_back({coordinate(c.mean.x, 0), coordinate(c.mean.y, 1), coordinate(c.mean.z, 2)});
+    points.push_back({coordinate(c.x, 0), coordinate(c.y, 1), coordinate(c.z, 2)});
     if (intensity != nullptr) intensity->push_back(c.intensity);
   }
   pieces_.clear();
   size_ = 0;
-  slots_.assign(kFirstSlots, kEmpty);
+  slots_ = emptySlots(kFirstSlots);
 }
 
 }  // namespace paloc

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "memory_budget.h"
 #include "paloc/core/types.h"
+#include "raw_array.h"
 
 namespace paloc {
 
@@ -30,16 +30,17 @@ class VoxelAccumulator {
 
  private:
   struct Cell {
-    std::uint64_t key = 0;
-    Point3f mean;  ///< of the points, from the voxel's low corner (m)
-    float intensity = 0;
-    std::uint32_t points = 0;
+    std::uint64_t key;
+    float x, y, z;  ///< mean of the points, from the voxel's low corner (m)
+    float intensity;
+    std::uint32_t points;
   };
   static constexpr std::size_t kPieceCells = 1 << 18;
 
   Cell& cell(std::size_t index) { return pieces_[index / kPieceCells][index % kPieceCells]; }
   void hashAll(std::span<const Point3f> points);
   Cell& find(std::uint64_t key, std::uint64_t hash);
+  static RawArray<std::uint32_t> emptySlots(std::size_t count);
   void growSlots();
   void growCells();
   void require(std::size_t more_bytes) const;
@@ -47,9 +48,9 @@ class VoxelAccumulator {
   double edge_m_, inverse_;
   MemoryBudget budget_;
   std::string name_;
-  std::vector<std::unique_ptr<Cell[]>> pieces_;
+  std::vector<RawArray<Cell>> pieces_;
   std::size_t size_ = 0;
-  std::vector<std::uint32_t> slots_;  ///< number of a cell, or kEmpty; a power of two of them
+  RawArray<std::uint32_t> slots_;  ///< number of a cell, or kEmpty; a power of two of them
   std::vector<std::uint64_t> keys_, hashes_;  ///< of the points being added
 };
 

@@ -1,6 +1,7 @@
 #include "wall_faces.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <vector>
 
@@ -20,58 +21,71 @@ using Vec3f = Eigen::Vector3f;
 
 Vec3f toVec(const Point3f& p) { return {p.x, p.y, p.z}; }
 
-/// Looks for the other face of the wall that a plane may belong to.
+/// Looks for the other faces of the walls that planes may belong to. One object serves one thread.
 class OtherFace {
  public:
-  OtherFace(const PointIndex& index, const PlaneStore& planes, const Vec3f& point,
-            const Vec3f& normal, float spacing_m)
-      : index_(index),
-        planes_(planes),
-        point_(point),
-        normal_(normal),
-        aside_m_(std::max(0.08F, 1.2F * spacing_m)),
-        about_m_(std::max(0.15F, 1.5F * spacing_m)) {}
+  OtherFace(const PointIndex& index, const PlaneStore& planes) : index_(index), planes_(planes) {}
 
-  /// The side of the plane where it lies: 1 where the normal points, -1 behind, 0 nowhere or on
-  /// both sides.
-  float side() const {
+  /// The side of the plane (through `point`) where it lies: 1 where the normal points, -1 behind, 0
+  /// nowhere or on both sides.
+  float side(const Vec3f& point, const Vec3f& normal, float spacing_m) {
+    const float aside_m = std::max(0.08F, 1.2F * spacing_m),
+                about_m = std::max(0.15F, 1.5F * spacing_m);
+    aside_sq_ = aside_m * aside_m;
+    normal_ = normal;
+    gather(point, aside_m + about_m);
     const bool before = liesAt(Vec3f::Zero(), 1), behind = liesAt(Vec3f::Zero(), -1);
     if (before == behind) return 0;
     const float side = before ? 1 : -1;
     const Vec3f u = normal_.unitOrthogonal(), v = normal_.cross(u);
     int about = 0, opposite = 0;
     for (const Vec3f& aside : {u, v, Vec3f(-u), Vec3f(-v)}) {
-      about += liesAt(about_m_ * aside, side);
-      opposite += liesAt(about_m_ * aside, -side);
+      about += liesAt(about_m * aside, side);
+      opposite += liesAt(about_m * aside, -side);
     }
     return about >= kAboutNeeded && opposite == 0 ? side : 0;
   }
 
  private:
+  // All points on parallel planes that are not the point's own, as far as any place reaches.
+  void gather(const Vec3f& point, float reach_m) {
+    candidates_.clear();
+    const float reach_sq = reach_m * reach_m;
+    const Point3f centre{point.x(), point.y(), point.z()};
+    index_.visitNear(centre, kThickestM * kThickestM + reach_sq, [&](const PointBlock& block) {
+      for (std::size_t at = 0; at < PointBlock::kPoints; at += 4) {
+        const Float4 x = load4(block.x + at) - centre.x, y = load4(block.y + at) - centre.y,
+                     z = load4(block.z + at) - centre.z;
+        const Float4 height = x * normal_.x() + y * normal_.y() + z * normal_.z();
+        const Float4 height_sq = height * height;
+        unsigned bits =
+            bitsOf((height_sq >= kThinnestM * kThinnestM) & (height_sq <= kThickestM * kThickestM) &
+                   (x * x + y * y + z * z - height_sq <= reach_sq));
+        for (; bits != 0; bits &= bits - 1) {
+          const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+          const std::uint32_t i = index_.indexOf(block, at + lane);
+          if (!planes_[i].planar()) continue;
+          if (std::abs(planes_[i].normal().dot(normal_)) <= kParallelCosine) continue;
+          candidates_.push_back({x[lane], y[lane], z[lane]});
+        }
+      }
+    });
+  }
+
   // Whether a parallel plane lies on that side of the place (relative to the point).
   bool liesAt(const Vec3f& place, float side) const {
-    const Vec3f from = point_ + place;
-    constexpr float kMiddleM = (kThinnestM + kThickestM) / 2;
-    const Vec3f middle = from + side * kMiddleM * normal_;
-    const float half_m = kThickestM - kMiddleM;
-    const auto fits = [&](std::uint32_t index) {
-      const Vec3f apart = toVec(index_.point(index)) - from;
+    return std::any_of(candidates_.begin(), candidates_.end(), [&](const Vec3f& candidate) {
+      const Vec3f apart = candidate - place;
       const float height = side * normal_.dot(apart);
-      if (height < kThinnestM || height > kThickestM) return false;
-      if (apart.squaredNorm() - height * height > aside_m_ * aside_m_) return false;
-      const PackedPlane& plane = planes_[index];
-      return plane.planar() && std::abs(plane.normal().dot(normal_)) > kParallelCosine;
-    };
-    return index_
-               .nearest({middle.x(), middle.y(), middle.z()}, half_m * half_m + aside_m_ * aside_m_,
-                        fits)
-               .index != PointIndex::kNone;
+      return height > 0 && apart.squaredNorm() - height * height <= aside_sq_;
+    });
   }
 
   const PointIndex& index_;
   const PlaneStore& planes_;
-  Vec3f point_, normal_;
-  float aside_m_, about_m_;
+  Vec3f normal_ = Vec3f::Zero();
+  float aside_sq_ = 0;
+  std::vector<Vec3f> candidates_;  // relative to the point
 };
 
 /// What is to become of a plane.
@@ -114,7 +128,8 @@ std::vector<Face> facesIn(const PointIndex& index, const PlaneStore& planes, std
   return faces;
 }
 
-void decide(const PointIndex& index, const PlaneStore& planes, std::size_t first, Turn* turns) {
+void decide(const PointIndex& index, const PlaneStore& planes, std::size_t first, OtherFace& other,
+            Turn* turns) {
   const std::size_t count = std::min(kGroup, index.size() - first);
   const float spacing_m = spacingOf(index, first, count);
   for (const Face& face : facesIn(index, planes, first, count)) {
@@ -122,7 +137,7 @@ void decide(const PointIndex& index, const PlaneStore& planes, std::size_t first
     // About a point in the middle of those of the face.
     const std::size_t middle = face.points[face.points.size() / 2];
     const Vec3f point = toVec(index.point(static_cast<std::uint32_t>(middle)));
-    const float side = OtherFace(index, planes, point, face.normal, spacing_m).side();
+    const float side = other.side(point, face.normal, spacing_m);
     if (side == 0) continue;
     for (const std::size_t i : face.points) {
       turns[i - first] = side * planes[i].normal().dot(face.normal) > 0 ? Turn::kTurn : Turn::kKeep;
@@ -134,11 +149,13 @@ void decide(const PointIndex& index, const PlaneStore& planes, std::size_t first
 
 void turnFacesToTheirViewers(const PointIndex& index, PlaneStore& planes, tbb::task_arena& arena) {
   // First all decisions, from planes that nobody changes meanwhile.
-  std::vector<Turn> turns(index.size(), Turn::kNothing);
+  RawArray<Turn> turns(index.size());
+  std::fill(turns.begin(), turns.end(), Turn::kNothing);
   forEachChunk(arena, chunkCount(index.size(), kGroup), kChunk,
                [&](std::size_t, std::size_t begin, std::size_t end) {
+                 OtherFace other(index, planes);
                  for (std::size_t group = begin; group < end; ++group) {
-                   decide(index, planes, group * kGroup, turns.data() + group * kGroup);
+                   decide(index, planes, group * kGroup, other, turns.data() + group * kGroup);
                  }
                });
   for (std::size_t i = 0; i < planes.size(); ++i) {

@@ -1,10 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
-
-#include "paloc/core/export.h"
-#include "paloc/core/types.h"
 
 namespace paloc {
 
@@ -31,15 +27,5 @@ struct PlaneFitLimits {
   double clean_thickness_m = 0.004;
   int min_points = 6;
 };
-
-/// Fits a plane to the neighbours of a point (given relative to it, the point itself included, m)
-/// by principal components. Where they lie thicker than one clean surface: the two faces of a thin
-/// wall are told apart by the gap between them, the face of the point itself is kept, and the fit
-/// is repeated without what lies off it. Not planar: too few points, too thick, a line, an edge or
-/// a bush (thickness against width), or a point that lies off the plane of its own neighbours. The
-/// first half of the neighbours must be the nearer one. `scratch` is work space of at least the
-/// size of `relative`.
-PALOC_EXPORT MapPlane fitPlane(std::span<const Point3f> relative, const PlaneFitLimits& limits,
-                               std::span<float> scratch);
 
 }  // namespace paloc
