@@ -16,7 +16,7 @@ namespace paloc {
 namespace {
 
 constexpr std::size_t kChunk = 65536;
-constexpr double kOrderEdgeM = 0.05;  // of the curve's voxels when nothing is thinned
+constexpr double kOrderVoxelM = 0.05;  // when nothing is thinned
 
 /// The grid of voxels that a cloud lies in.
 struct Grid {
@@ -110,9 +110,11 @@ std::vector<Point3f> meansOfRuns(const PointCloud& cloud, const RawArray<KeyedIn
 
 }  // namespace
 
+double curveVoxel(double voxel_m) { return voxel_m > 0 ? voxel_m : kOrderVoxelM; }
+
 RawArray<Point3f> thinAlongCurve(const PointCloud& cloud, double voxel_m, tbb::task_arena& arena,
                                  const std::string& name) {
-  const double edge = voxel_m > 0 ? voxel_m : kOrderEdgeM;
+  const double edge = curveVoxel(voxel_m);
   const RawArray<KeyedIndex> keyed = sortedKeys(cloud, edge, gridAbout(cloud, edge, name), arena);
   std::vector<std::vector<Point3f>> parts(chunkCount(keyed.size(), kChunk));
   forEachChunk(arena, keyed.size(), kChunk,

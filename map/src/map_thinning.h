@@ -10,6 +10,9 @@
 
 namespace paloc {
 
+/// The edge of the voxels that the curve of thinAlongCurve() goes through (m).
+double curveVoxel(double voxel_m);
+
 /// The points of a cloud along a Hilbert curve through voxels of this edge, those of one voxel
 /// replaced by their centroid (voxel_m = 0: all kept, as they are). Neighbours in space are near in
 /// memory, for the sake of every later search. Throws IoError (with `name`) when the cloud spans

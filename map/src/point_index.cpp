@@ -1,6 +1,7 @@
 #include "point_index.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "parallel_chunks.h"
 
@@ -8,6 +9,8 @@ namespace paloc {
 namespace {
 
 constexpr std::size_t kChunk = 4096;
+constexpr double kRoundedUp = 1 + 1e-5;
+constexpr double kMaxReach = 0.5;  // in edges of a cube: beyond, the tree has less to look at
 
 }  // namespace
 
@@ -56,7 +59,7 @@ RawArray<PointIndex::BoxGroup> PointIndex::groupsOver(const Item* items, std::si
   return groups;
 }
 
-PointIndex::PointIndex(const RawArray<PointBlock>& blocks, std::size_t points,
+PointIndex::PointIndex(const RawArray<PointBlock>& blocks, std::size_t points, double voxel_m,
                        tbb::task_arena& arena)
     : blocks_(blocks.data()), block_count_(blocks.size()), points_(points) {
   if (points_ == 0) return;
@@ -65,12 +68,58 @@ PointIndex::PointIndex(const RawArray<PointBlock>& blocks, std::size_t points,
     RawArray<BoxGroup> groups = groupsOver(levels_.back().data(), levels_.back().size(), arena);
     levels_.push_back(std::move(groups));
   }
+  const Eigen::Vector3f low = box().low;
+  cubes_ = CubeTable(blocks_, points_, {low.x(), low.y(), low.z()}, voxel_m, arena);
+}
+
+void PointIndex::searchCube(const CubeTable::Cube& cube, const Point3f& query, Found& best) const {
+  cubes_.visit(cube, [&](std::uint32_t first, std::uint32_t count) {
+    const auto last = static_cast<std::uint32_t>((first + count - 1) / PointBlock::kPoints);
+    for (auto b = static_cast<std::uint32_t>(first / PointBlock::kPoints); b <= last; ++b) {
+      searchBlock(
+          b, query, [](std::uint32_t) { return true; }, best);
+    }
+  });
+}
+
+void PointIndex::prefetchPoints(const Point3f& query) const {
+  cubes_.visit(cubes_.cubeOf(query), [&](std::uint32_t first, std::uint32_t count) {
+    constexpr std::size_t kLine = 64;
+    const auto* at = reinterpret_cast<const char*>(blocks_ + first / PointBlock::kPoints);
+    const auto* end =
+        reinterpret_cast<const char*>(blocks_ + (first + count - 1) / PointBlock::kPoints + 1);
+    for (; at < end; at += kLine) __builtin_prefetch(at);
+  });
+}
+
+// The cube of the query mostly holds a point; what is nearer lies in it or in a cube beside it.
+PointIndex::Found PointIndex::nearest(const Point3f& query, float nearer_than_sq) const {
+  const auto any = [](std::uint32_t) { return true; };
+  if (points_ == 0) return {kNone, nearer_than_sq};
+  Found best{kNone, nearer_than_sq};
+  const CubeTable::Cube home = cubes_.cubeOf(query);
+  searchCube(home, query, best);
+  const double reach = std::sqrt(static_cast<double>(best.distance_sq)) * kRoundedUp;
+  if (reach > kMaxReach * cubes_.edge()) {
+    const Found found = nearest(query, best.distance_sq, any);
+    return found.index == kNone ? best : found;
+  }
+  const CubeTable::Cube low = cubes_.cubeOf(query, -reach), high = cubes_.cubeOf(query, reach);
+  for (std::uint32_t x = low[0]; x <= high[0]; ++x) {
+    for (std::uint32_t y = low[1]; y <= high[1]; ++y) {
+      for (std::uint32_t z = low[2]; z <= high[2]; ++z) {
+        const CubeTable::Cube cube{x, y, z};
+        if (cube != home) searchCube(cube, query, best);
+      }
+    }
+  }
+  return best;
 }
 
 std::size_t PointIndex::bytes() const {
   std::size_t sum = block_count_ * sizeof(PointBlock);
   for (const auto& level : levels_) sum += level.size() * sizeof(BoxGroup);
-  return sum;
+  return sum + cubes_.bytes();
 }
 
 PointIndex::Box PointIndex::box() const {

@@ -9,26 +9,20 @@
 #include <span>
 #include <vector>
 
+#include "cube_table.h"
 #include "lanes4.h"
 #include "paloc/core/types.h"
+#include "point_block.h"
 #include "raw_array.h"
 
 namespace paloc {
-
-/// Eight points that follow each other on the Hilbert curve, their coordinates side by side. What
-/// is missing in the last block lies too far away to be found.
-struct PointBlock {
-  static constexpr std::size_t kPoints = 8;
-  static constexpr float kMissing = 1e30F;
-  float x[kPoints], y[kPoints], z[kPoints];
-};
-static_assert(sizeof(PointBlock) == 96);
 
 /// Search in points that lie along a Hilbert curve. Such points are a tree already: every eight
 /// of them a leaf, every eight leaves a node, and so on; what is kept of it is a bounding box for
 /// each leaf and node. The boxes take one pass to make (a k-d tree of nanoflann over eight million
 /// points takes about a second), and a node's eight boxes are tested side by
-/// side. Exact: the answers are those of brute force. Every query may be made from any thread.
+/// side. Where points are near, a table of cubes finds them without a way through the tree. Exact:
+/// the answers are those of brute force. Every query may be made from any thread.
 class PointIndex {
  public:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
@@ -39,8 +33,10 @@ class PointIndex {
   };
 
   PointIndex() = default;
-  /// Refers to points along a curve; the last block may have missing ones.
-  PointIndex(const RawArray<PointBlock>& blocks, std::size_t points, tbb::task_arena& arena);
+  /// Refers to points along a curve through voxels of `voxel_m`; the last block may have missing
+  /// ones.
+  PointIndex(const RawArray<PointBlock>& blocks, std::size_t points, double voxel_m,
+             tbb::task_arena& arena);
 
   std::size_t size() const { return points_; }
   std::size_t blocks() const { return block_count_; }
@@ -67,9 +63,11 @@ class PointIndex {
   /// several equally near, any one, but always the same.
   template <typename Accept>
   Found nearest(const Point3f& query, float nearer_than_sq, const Accept& accept) const;
-  Found nearest(const Point3f& query, float nearer_than_sq) const {
-    return nearest(query, nearer_than_sq, [](std::uint32_t) { return true; });
-  }
+  Found nearest(const Point3f& query, float nearer_than_sq) const;
+
+  /// Fetches what a search for the nearest will need, in two steps, so that it need not wait.
+  void prefetchTable(const Point3f& query) const { cubes_.prefetch(cubes_.cubeOf(query)); }
+  void prefetchPoints(const Point3f& query) const;
 
   /// Calls visit(block) for every block whose box is nearer than the given distance, in a fixed
   /// order.
@@ -101,10 +99,12 @@ class PointIndex {
   template <typename Accept>
   void searchBlock(std::uint32_t block, const Point3f& query, const Accept& accept,
                    Found& best) const;
+  void searchCube(const CubeTable::Cube& cube, const Point3f& query, Found& best) const;
 
   const PointBlock* blocks_ = nullptr;
   std::size_t block_count_ = 0, points_ = 0;
   std::vector<RawArray<BoxGroup>> levels_;  // boxes of blocks, of groups of blocks, ...
+  CubeTable cubes_;
 };
 
 // How far a coordinate lies outside four intervals.

@@ -104,7 +104,7 @@ std::unique_ptr<PriorMap::Data> PriorMap::prepare(const PointCloud& cloud,
   map.blocks = blocksOf(points, arena);
   data->statistics.sort_s = sorting.seconds();
   const Stopwatch indexing;
-  data->index = PointIndex(map.blocks, points.size(), arena);
+  data->index = PointIndex(map.blocks, points.size(), curveVoxel(settings.voxel_m), arena);
   data->statistics.index_s = indexing.seconds();
   const Stopwatch fitting;
   map.planes = fitPlanes(data->index, settings, arena);
@@ -142,7 +142,8 @@ std::shared_ptr<const PriorMap> PriorMap::load(const std::filesystem::path& file
     const Stopwatch indexing;
     data = std::make_unique<Data>();
     data->map = std::move(*prepared);
-    data->index = PointIndex(data->map.blocks, data->map.points, arena);
+    data->index =
+        PointIndex(data->map.blocks, data->map.points, curveVoxel(settings.voxel_m), arena);
     data->statistics.index_s = indexing.seconds();
     describe(data->map, data->index, data->statistics);
     data->statistics.side_file = SideFile::kRead;
@@ -185,25 +186,38 @@ PriorMap::Nearest PriorMap::nearest(const Point3f& local, float max_distance_m) 
   return nearestOf(data_->index.nearest(local, max_distance_m * max_distance_m));
 }
 
-PriorMap::Nearest PriorMap::nearestSeenFrom(const Point3f& viewer, const Point3f& local,
-                                            float max_distance_m, std::uint32_t hint) const {
+// In groups whose searches take turns: while the memory for one comes, another goes on.
+void PriorMap::nearestSeenFrom(const Point3f& viewer, float max_distance_m,
+                               std::span<const Query> queries, std::span<Nearest> answers) const {
   const PointIndex& index = data_->index;
   const PlaneStore& planes = data_->map.planes;
-  PointIndex::Found bound{PointIndex::kNone, max_distance_m * max_distance_m};
-  if (hint != kNoPoint) {
-    const float distance_sq = (toVec(index.point(hint)) - toVec(local)).squaredNorm();
-    if (distance_sq < bound.distance_sq) bound = {hint, distance_sq};
-  }
-  const PointIndex::Found nearer = index.nearest(local, bound.distance_sq);
-  const PointIndex::Found found = nearer.index == PointIndex::kNone ? bound : nearer;
-  if (found.index == PointIndex::kNone) return {};
+  const float max_distance_sq = max_distance_m * max_distance_m;
   const auto canBeSeen = [&](std::uint32_t i) {
     return !planes[i].oriented() ||
            planes[i].normal().dot(toVec(viewer) - toVec(index.point(i))) > 0;
   };
-  if (canBeSeen(found.index)) return nearestOf(found);
-  const PointIndex::Found seen = index.nearest(local, max_distance_m * max_distance_m, canBeSeen);
-  return nearestOf(seen.index == PointIndex::kNone ? found : seen);
+  constexpr std::size_t kGroup = 16;
+  for (std::size_t begin = 0; begin < queries.size(); begin += kGroup) {
+    const std::size_t end = std::min(begin + kGroup, queries.size());
+    for (std::size_t i = begin; i < end; ++i) index.prefetchTable(queries[i].local);
+    for (std::size_t i = begin; i < end; ++i) index.prefetchPoints(queries[i].local);
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto& [local, hint] = queries[i];
+      PointIndex::Found bound{PointIndex::kNone, max_distance_sq};
+      if (hint != kNoPoint) {
+        const float distance_sq = (toVec(index.point(hint)) - toVec(local)).squaredNorm();
+        if (distance_sq < bound.distance_sq) bound = {hint, distance_sq};
+      }
+      const PointIndex::Found nearer = index.nearest(local, bound.distance_sq);
+      answers[i] = nearestOf(nearer.index == PointIndex::kNone ? bound : nearer);
+      if (answers[i].found()) __builtin_prefetch(&planes[answers[i].index]);
+    }
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!answers[i].found() || canBeSeen(answers[i].index)) continue;
+      const PointIndex::Found seen = index.nearest(queries[i].local, max_distance_sq, canBeSeen);
+      if (seen.index != PointIndex::kNone) answers[i] = nearestOf(seen);
+    }
+  }
 }
 
 }  // namespace paloc

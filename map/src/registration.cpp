@@ -1,6 +1,7 @@
 #include "registration.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -104,13 +105,10 @@ void Registration::setPoints(AveragedPoints averaged_body, const Vec3& sensor_po
   }
 }
 
-// The nearest map point that the sensor can see and its plane. Planes seen edge-on are none.
-void Registration::search(Correspondence& match, const Vec3& position, const Point3f& sensor,
-                          float reach) const {
-  match.searched_at = position;
+// The plane of the nearest map point that the sensor can see. Planes seen edge-on are none.
+void Registration::take(Correspondence& match, const PriorMap::Nearest& nearest,
+                        const Vec3& from_sensor) const {
   match.planar = false;
-  const PriorMap::Nearest nearest =
-      map_.nearestSeenFrom(sensor, toPoint(position), reach, match.map_index);
   match.near = nearest.found();
   match.map_index = nearest.index;
   if (!nearest.found()) return;
@@ -119,9 +117,9 @@ void Registration::search(Correspondence& match, const Vec3& position, const Poi
   if (!plane.planar()) return;
   match.normal = Vec3(static_cast<double>(plane.nx), static_cast<double>(plane.ny),
                       static_cast<double>(plane.nz));
-  const Vec3 ray = position - toVec(sensor);
-  const double across = match.normal.dot(ray);
-  if (across * across < kMinIncidenceCosine * kMinIncidenceCosine * ray.squaredNorm()) return;
+  const double across = match.normal.dot(from_sensor);
+  if (across * across < kMinIncidenceCosine * kMinIncidenceCosine * from_sensor.squaredNorm())
+    return;
   match.planar = true;
   match.map_point = toVec(map_.point(nearest.index));
   match.height = match.normal.dot(match.map_point) + static_cast<double>(plane.offset_m);
@@ -136,6 +134,22 @@ void Registration::search(Correspondence& match, const Vec3& position, const Poi
   match.fit_variance = roughness * roughness + thickness * thickness / plane.points;
   match.normal_sigma = static_cast<double>(plane.normal_sigma_rad);
   match.surface_sigma = thickness;
+}
+
+// Matches some points, no more than a chunk, anew.
+void Registration::search(std::span<const std::uint32_t> points, const Pose& pose, float reach) {
+  std::array<PriorMap::Query, kChunk> queries;
+  std::array<PriorMap::Nearest, kChunk> answers;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Correspondence& match = matches_[points[k]];
+    queries[k] = {toPoint(match.searched_at), match.map_index};
+  }
+  const Vec3 sensor = pose * sensor_body_;
+  map_.nearestSeenFrom(toPoint(sensor), reach, std::span(queries).first(points.size()), answers);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    Correspondence& match = matches_[points[k]];
+    take(match, answers[k], match.searched_at - sensor);
+  }
 }
 
 // Residual and its standard deviation, from the noise of the range and of the plane.
@@ -156,18 +170,25 @@ void Registration::associate(const Pose& pose, double gate, int iteration, std::
   const double research =
       std::max(settings_.research_distance_m, least) * std::pow(kRestlessGrowth, restless);
   const double research_sq = research * research;
-  const Point3f sensor = toPoint(pose * sensor_body_);
-  const auto reach = static_cast<float>(gate);
   forEachChunk(arena_, (points_.points.size() + stride - 1) / stride, kChunk,
                [&](std::size_t, std::size_t begin, std::size_t end) {
+                 std::array<std::uint32_t, kChunk> moved;
+                 std::size_t count = 0;
                  for (std::size_t i = begin * stride; i < points_.points.size() && i < end * stride;
                       i += stride) {
                    const Vec3 position = pose * toVec(points_.points[i]);
                    Correspondence& match = matches_[i];
                    if ((position - match.searched_at).squaredNorm() > research_sq) {
-                     search(match, position, sensor, reach);
+                     match.searched_at = position;
+                     moved[count++] = static_cast<std::uint32_t>(i);
+                   } else if (match.planar) {
+                     measure(match, i, position, pose.rotation);
                    }
-                   if (match.planar) measure(match, i, position, pose.rotation);
+                 }
+                 search(std::span(moved).first(count), pose, static_cast<float>(gate));
+                 for (std::size_t k = 0; k < count; ++k) {
+                   Correspondence& match = matches_[moved[k]];
+                   if (match.planar) measure(match, moved[k], match.searched_at, pose.rotation);
                  }
                });
   collectMatched(gate, stride);

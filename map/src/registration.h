@@ -2,6 +2,7 @@
 
 #include <tbb/task_arena.h>
 
+#include <span>
 #include <vector>
 
 #include "paloc/core/map_matcher.h"
@@ -81,8 +82,8 @@ class Registration {
   };
 
   void associate(const Pose& pose, double gate, int iteration, std::size_t stride);
-  void search(Correspondence& match, const Vec3& position, const Point3f& sensor,
-              float reach) const;
+  void search(std::span<const std::uint32_t> points, const Pose& pose, float reach);
+  void take(Correspondence& match, const PriorMap::Nearest& nearest, const Vec3& from_sensor) const;
   void measure(Correspondence& match, std::size_t point, const Vec3& position,
                const Mat3& rotation) const;
   void collectMatched(double gate, std::size_t stride);
