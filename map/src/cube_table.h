@@ -42,6 +42,19 @@ class CubeTable {
     return {numberOf(moved(p.x), low_[0]), numberOf(moved(p.y), low_[1]),
             numberOf(moved(p.z), low_[2])};
   }
+  /// Squares of the distances along each axis (m2) from a point to those cubes beside its own that
+  /// begin with `lowest`: to the one below where that is lower than its own, else to the one above.
+  std::array<double, 3> distancesSq(const Point3f& p, const Cube& lowest, const Cube& own) const {
+    const std::array<float, 3> at{p.x, p.y, p.z};
+    std::array<double, 3> distances_sq;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double begin = low_[axis] + edge_m_ * own[axis];
+      const double inside = static_cast<double>(at[axis]) - begin;
+      const double off = lowest[axis] < own[axis] ? inside : edge_m_ - inside;
+      distances_sq[axis] = off * off;
+    }
+    return distances_sq;
+  }
   /// Fetches what visit() will need first.
   void prefetch(const Cube& cube) const { __builtin_prefetch(&slots_[slotOf(keyOf(cube))]); }
 

@@ -1,5 +1,7 @@
 #include "paloc/map/degeneracy.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -96,16 +98,14 @@ double factorOf(const MatchDirection& direction) {
   return factor < kNone ? 0 : factor;
 }
 
-// The three directions of one kind, weakest first, with shares, probabilities and sigmas. They are
-// those of the rows alone: shared errors blur them, since a bias of the range turns the weakest
-// axis towards whatever the bias moves most.
-void observeKind(std::span<const PlaneRow> rows, const Mat6& geometry, const Mat6& information,
-                 double normal_noise_rad, DirectionKind own,
-                 std::array<MatchDirection, 6>& directions) {
+// The three directions of one kind, weakest first, with shares and probabilities. They are those of
+// the rows alone: shared errors blur them, since a bias of the range turns the weakest axis towards
+// whatever the bias moves most.
+void observeKind(std::span<const PlaneRow> rows, const Mat6& geometry, double normal_noise_rad,
+                 DirectionKind own, std::array<MatchDirection, 6>& directions) {
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(schurComplement(geometry, own));
   const Mat3 follow = followingMotion(rows, geometry, own, normal_noise_rad);
-  const Mat3 schur = schurComplement(information, own);
-  std::array<double, 3> counts{}, along{};
+  std::array<double, 3> counts{};
   std::array<Motion, 3> motions;
   for (int i = 0; i < 3; ++i) {
     const Vec3 axis = solver.eigenvectors().col(i);
@@ -121,18 +121,25 @@ void observeKind(std::span<const PlaneRow> rows, const Mat6& geometry, const Mat
     direction.axis_body = solver.eigenvectors().col(i);
     direction.probability = informativeProbability(support);
     direction.agreement = support.unweighted > 0 ? support.signal / support.unweighted : 0;
-    along[static_cast<std::size_t>(i)] =
-        std::max(direction.axis_body.dot(schur * direction.axis_body), 0.0);
     counts[static_cast<std::size_t>(i)] = support.count;
   }
   const double largest = std::max({counts[0], counts[1], counts[2], 1.0});
   for (std::size_t i = 0; i < 3; ++i) {
     MatchDirection& direction = directions[static_cast<std::size_t>(own) + i];
     direction.share = counts[i] / largest;
-    const double factor = factorOf(direction);
-    direction.cls = classOf(factor);
+    direction.cls = classOf(factorOf(direction));
+  }
+}
+
+// The sigmas of the directions of one kind, of what is left under shared errors.
+void measureSigmas(const Mat6& information, DirectionKind own,
+                   std::array<MatchDirection, 6>& directions) {
+  const Mat3 schur = schurComplement(information, own);
+  for (std::size_t i = 0; i < 3; ++i) {
+    MatchDirection& direction = directions[static_cast<std::size_t>(own) + i];
+    const double along = std::max(direction.axis_body.dot(schur * direction.axis_body), 0.0);
     direction.sigma =
-        1 / std::sqrt(std::max(factor * along[i], 1 / (kUnknownSigma * kUnknownSigma)));
+        1 / std::sqrt(std::max(factorOf(direction) * along, 1 / (kUnknownSigma * kUnknownSigma)));
   }
 }
 
@@ -147,22 +154,30 @@ void attenuateKind(DirectionKind own, const std::array<MatchDirection, 6>& direc
 
 }  // namespace
 
-ObservedDirections observeDirections(std::span<const PlaneRow> rows, const Mat6& spread,
-                                     double normal_noise_rad) {
-  ObservedDirections observed;
-  observed.information = leastSquares(rows).information;
-  observed.shared_spread = spread;
-  const Mat6 geometry = observed.information;
-  const Mat6 whole = informationUnderSharedErrors(geometry, spread);
-  observeKind(rows, geometry, whole, normal_noise_rad, DirectionKind::kPosition,
-              observed.directions);
-  observeKind(rows, geometry, whole, normal_noise_rad, DirectionKind::kRotation,
-              observed.directions);
-  attenuateKind(DirectionKind::kPosition, observed.directions, observed.information);
-  attenuateKind(DirectionKind::kRotation, observed.directions, observed.information);
+DirectionObserver::DirectionObserver(std::span<const PlaneRow> rows, double normal_noise_rad)
+    : geometry_(leastSquares(rows).information) {
+  const auto observe = [&](DirectionKind own) {
+    observeKind(rows, geometry_, normal_noise_rad, own, directions_);
+  };
+  tbb::parallel_invoke([&] { observe(DirectionKind::kPosition); },
+                       [&] { observe(DirectionKind::kRotation); });
+}
+
+ObservedDirections DirectionObserver::under(const Mat6& spread) const {
+  ObservedDirections observed{directions_, geometry_, spread};
+  const Mat6 whole = informationUnderSharedErrors(geometry_, spread);
+  for (const DirectionKind own : {DirectionKind::kPosition, DirectionKind::kRotation}) {
+    measureSigmas(whole, own, observed.directions);
+    attenuateKind(own, observed.directions, observed.information);
+  }
   cutToKnown(observed.information, observed.shared_spread);
   observed.information = (0.5 * (observed.information + observed.information.transpose())).eval();
   return observed;
+}
+
+ObservedDirections observeDirections(std::span<const PlaneRow> rows, const Mat6& spread,
+                                     double normal_noise_rad) {
+  return DirectionObserver(rows, normal_noise_rad).under(spread);
 }
 
 }  // namespace paloc

@@ -22,19 +22,23 @@ using Vec4i = std::int32_t __attribute__((vector_size(16)));
 constexpr float kSlackM = 1e-3F, kSlackCosine = 1e-4F;
 
 // Rows on one surface: their mean normal and centroid, which a single row's are far off of over a
-// long lever.
+// long lever. Of many rows they change little with one more, and are only brought up to date now
+// and then.
 struct Patch {
   Vec3 normal_sum = Vec3::Zero(), point_sum = Vec3::Zero();
   double thickness_sq = 0;
   int rows = 0;
   Vec3 normal = Vec3::Zero(), point = Vec3::Zero();  // of the sums
 
-  void add(const PlaneRow& row) {
+  /// Whether normal and point have changed.
+  bool add(const PlaneRow& row) {
     normal_sum += row.normal_body;
     point_sum += row.point_body;
     thickness_sq += row.surface_sigma * row.surface_sigma;
     ++rows;
+    if (rows > 8 && rows % (rows / 8) != 0) return false;
     summarize();
+    return true;
   }
   void add(const Patch& other) {
     normal_sum += other.normal_sum;
@@ -44,7 +48,6 @@ struct Patch {
     summarize();
   }
 
- private:
   void summarize() {
     normal = normal_sum.normalized();
     point = point_sum / rows;
@@ -95,9 +98,11 @@ bool any(const Vec4i& lanes) {
   return (halves[0] | halves[1]) != 0;
 }
 
-// The first of the patches that the row lies on, or their number.
-std::size_t firstPatch(const PlaneRow& row, const std::vector<Patch>& patches,
-                       const std::vector<PatchGroup>& groups, double patch_sq) {
+// The patch of the row before, where the row lies on it; else the first that it lies on, or their
+// number.
+std::size_t patchFor(const PlaneRow& row, std::size_t before, const std::vector<Patch>& patches,
+                     const std::vector<PatchGroup>& groups, double patch_sq) {
+  if (before < patches.size() && liesOn(row, patches[before], patch_sq)) return before;
   const Eigen::Vector3f normal = row.normal_body.cast<float>(),
                         point = row.point_body.cast<float>();
   for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -181,16 +186,17 @@ std::vector<double> assignPatches(std::span<PlaneRow> rows, double patch_m, doub
   std::vector<Patch> patches;
   std::vector<PatchGroup> groups;
   const double patch_sq = patch_m * patch_m;
+  std::size_t index = 0;
   for (PlaneRow& row : rows) {
-    const std::size_t index = firstPatch(row, patches, groups, patch_sq);
+    index = patchFor(row, index, patches, groups, patch_sq);
     if (index == patches.size()) {
       patches.emplace_back();
       if (index % 4 == 0) groups.emplace_back();
     }
     row.patch = static_cast<int>(index);
-    patches[index].add(row);
-    groups[index / 4].set(index % 4, patches[index]);
+    if (patches[index].add(row)) groups[index / 4].set(index % 4, patches[index]);
   }
+  for (Patch& patch : patches) patch.summarize();
   const std::vector<int> merged = mergePatches(patches, patch_sq);
   for (PlaneRow& row : rows) row.patch = merged[static_cast<std::size_t>(row.patch)];
   std::vector<double> variances(patches.size());

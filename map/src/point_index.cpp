@@ -1,6 +1,7 @@
 #include "point_index.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "parallel_chunks.h"
@@ -105,11 +106,20 @@ PointIndex::Found PointIndex::nearest(const Point3f& query, float nearer_than_sq
     return found.index == kNone ? best : found;
   }
   const CubeTable::Cube low = cubes_.cubeOf(query, -reach), high = cubes_.cubeOf(query, reach);
-  for (std::uint32_t x = low[0]; x <= high[0]; ++x) {
-    for (std::uint32_t y = low[1]; y <= high[1]; ++y) {
-      for (std::uint32_t z = low[2]; z <= high[2]; ++z) {
-        const CubeTable::Cube cube{x, y, z};
-        if (cube != home) searchCube(cube, query, best);
+  const std::array<double, 3> off = cubes_.distancesSq(query, low, home);
+  const auto apart = [&](const CubeTable::Cube& cube) {
+    double sum = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) sum += cube[axis] == home[axis] ? 0 : off[axis];
+    return sum;
+  };
+  CubeTable::Cube cube;
+  for (cube[0] = low[0]; cube[0] <= high[0]; ++cube[0]) {
+    for (cube[1] = low[1]; cube[1] <= high[1]; ++cube[1]) {
+      for (cube[2] = low[2]; cube[2] <= high[2]; ++cube[2]) {
+        if (cube == home || apart(cube) > kRoundedUp * static_cast<double>(best.distance_sq)) {
+          continue;
+        }
+        searchCube(cube, query, best);
       }
     }
   }

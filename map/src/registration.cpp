@@ -21,7 +21,7 @@ constexpr double kNoiseCosine =
 constexpr double kKernel = 3.0;  // of the Geman-McClure kernel, in robust standard deviations
 constexpr double kInlier = 3.0;  // the same, for what counts as an inlier
 constexpr double kMadToSigma = 1.4826;
-constexpr double kConvergedM = 1e-4, kConvergedRad = 2e-5;
+constexpr double kConvergedM = 2e-4, kConvergedRad = 4e-5;
 // Steps below which the points of the first steps do no more.
 constexpr double kNearM = 5e-3, kNearRad = 1e-3;
 // Points that are enough for the first steps, for a scale on the way, and for a first look at the
@@ -329,7 +329,7 @@ void Registration::summarize(double scale, Alignment& alignment) {
 }
 
 // Steps of robust least squares on part of the points at first, on all of them later; the errors
-// that points share are in the information only. The last step is so small that the equations
+// that points share are no part of it. The last step is so small that the equations
 // that gave it hold after it, too.
 Alignment Registration::align(const Pose& start, const AlignSchedule& schedule) {
   Alignment alignment;
@@ -380,10 +380,6 @@ Alignment Registration::align(const Pose& start, const AlignSchedule& schedule) 
   if (!alignment.converged) {
     associate(pose, schedule.gate_m, alignment.iterations, 1);
     fillRows(pose, scale);
-  }
-  if (schedule.shared_errors) {
-    const AddTime time(alignment.timing.information_s);
-    alignment.spread_body = spreadOfRows();
   }
   summarize(scale, alignment);
   return alignment;

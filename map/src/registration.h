@@ -24,12 +24,11 @@ struct AlignSchedule {
   /// Of the start (m). Where it is large the few points that could correct it are far off their
   /// planes: the kernel begins as wide as that, and narrows.
   double start_sigma_m = 0;
-  bool shared_errors = true;  ///< the information takes the errors into account that points share
 };
 
 /// Time of the parts of an alignment, over all iterations (s).
 struct AlignTiming {
-  double association_s = 0, solve_s = 0, information_s = 0;
+  double association_s = 0, solve_s = 0;
 };
 
 /// What an alignment came to.
@@ -42,7 +41,6 @@ struct Alignment {
   int matched = 0;  ///< points with a plane
   int inliers = 0;  ///< matched points within three robust standard deviations
   double residual_rms_m = 0, residual_median_m = 0;
-  Mat6 spread_body = Mat6::Zero();  ///< of the errors that points share, tangent of PlaneRow
 };
 
 /// Point-to-plane Gauss-Newton on SE(3) of one thinned scan against the map, in the map's local
@@ -64,6 +62,9 @@ class Registration {
 
   /// Rows of the last alignment, at its result.
   const std::vector<PlaneRow>& rows() const { return rows_; }
+  /// What the errors that these share add to the covariance of their gradient (sharedSpread);
+  /// gives each row its patch.
+  Mat6 spreadOfRows();
 
  private:
   struct Correspondence {
@@ -91,7 +92,6 @@ class Registration {
   NormalEquations plainEquations(const Pose& pose, double scale, double widening_m);
   void fillRows(const Pose& pose, double scale);
   void moveRows(const Vec6& step);
-  Mat6 spreadOfRows();
   PlaneRow rowOf(std::size_t point, const Mat3& R_body_local, double scale) const;
   std::vector<PlaneRow> unweightedRows(const Pose& pose, double scale, std::size_t step) const;
   ObservedDirections glimpse(const Pose& pose, double scale) const;

@@ -48,8 +48,7 @@ RoughStart searchAround(Registration& registration, const PriorMap& map,
   const AlignSchedule wide{.first_gate_m = settings.locate_distance_m,
                            .first_iterations = 6,
                            .gate_m = settings.max_distance_m,
-                           .max_iterations = 14,
-                           .shared_errors = false};
+                           .max_iterations = 14};
   registration.setPoints(all.everyNth(kCoarsePoints), sensor);
   Pose best = rough;
   int most = -1;

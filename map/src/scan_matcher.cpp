@@ -1,8 +1,11 @@
 #include "paloc/map/scan_matcher.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "paloc/core/mrpt_pose.h"
 #include "paloc/map/scan_averaging.h"
@@ -40,6 +43,12 @@ class ScanMatcher::Work {
         registration_(*map_, settings_, arena_),
         finder_(*map_, settings_) {}
 
+  /// All work in one visit to the threads.
+  template <typename Body>
+  MapMatch onItsThreads(const Body& body) {
+    return arena_.execute(body);
+  }
+
   MapMatch match(const Scan& scan, const Pose& guess, double sigma_position,
                  double sigma_rotation) {
     MapMatch answer = begin(scan, guess);
@@ -50,12 +59,7 @@ class ScanMatcher::Work {
         .max_iterations = settings_.max_iterations,
         .start_sigma_m = sigma_position};
     const Alignment alignment = registration_.align(toLocal(guess), schedule);
-    fill(alignment, answer);
-    if (settings_.spectrum) {
-      const auto start = std::chrono::steady_clock::now();
-      answer.spectrum = spectrumOfRows();
-      timing_.spectrum_s = secondsSince(start);
-    }
+    tbb::parallel_invoke([&] { fill(alignment, answer); }, [&] { addSpectrum(answer.spectrum); });
     if (answer.accepted() && stepTooLarge(guess, answer, sigma_position, sigma_rotation)) {
       answer.refusal = MatchRefusal::kLargeStep;
     }
@@ -189,7 +193,6 @@ class ScanMatcher::Work {
     const auto start = std::chrono::steady_clock::now();
     timing_.association_s = alignment.timing.association_s;
     timing_.solve_s = alignment.timing.solve_s;
-    timing_.information_s = alignment.timing.information_s;
     const Pose& local = alignment.T_local_body;
     answer.T_map_body = toMrpt(Pose{local.position + map_->origin(), local.rotation});
     answer.matched = alignment.matched;
@@ -200,17 +203,28 @@ class ScanMatcher::Work {
     answer.iterations = alignment.iterations;
     answer.refusal = gate(alignment, answer);
     if (!registration_.rows().empty()) {
-      const ObservedDirections observed = observeDirections(
-          registration_.rows(), alignment.spread_body, settings_.normal_noise_rad);
+      std::optional<DirectionObserver> observer;
+      Mat6 all_shared;
+      tbb::parallel_invoke(
+          [&] { observer.emplace(registration_.rows(), settings_.normal_noise_rad); },
+          [&] { all_shared = registration_.spreadOfRows(); });
+      const ObservedDirections observed = observer->under(all_shared);
       answer.directions = observed.directions;
       const bool handled = settings_.degeneracy_handling;
       const Mat6 information =
           handled ? observed.information : leastSquares(registration_.rows()).information;
-      const Mat6& spread = handled ? observed.shared_spread : alignment.spread_body;
+      const Mat6& spread = handled ? observed.shared_spread : all_shared;
       answer.information = informationInMap(information, local.rotation);
       answer.shared_spread = informationInMap(spread, local.rotation);
     }
-    timing_.information_s += secondsSince(start);
+    timing_.information_s = secondsSince(start);
+  }
+
+  void addSpectrum(double& spectrum) {
+    if (!settings_.spectrum) return;
+    const auto start = std::chrono::steady_clock::now();
+    spectrum = spectrumOfRows();
+    timing_.spectrum_s = secondsSince(start);
   }
 
   // The scan's own surfaces against the map's, at some of the matched points, evenly.
@@ -270,11 +284,14 @@ ScanMatcher::~ScanMatcher() = default;
 
 MapMatch ScanMatcher::match(const Scan& scan, const mrpt::poses::CPose3D& T_map_body_guess,
                             double guess_sigma_position, double guess_sigma_rotation) {
-  return work_->match(scan, fromMrpt(T_map_body_guess), guess_sigma_position, guess_sigma_rotation);
+  return work_->onItsThreads([&] {
+    return work_->match(scan, fromMrpt(T_map_body_guess), guess_sigma_position,
+                        guess_sigma_rotation);
+  });
 }
 
 MapMatch ScanMatcher::locate(const Scan& scan, const StartGuess& guess) {
-  return work_->locate(scan, guess);
+  return work_->onItsThreads([&] { return work_->locate(scan, guess); });
 }
 
 const ScanMatcher::Timing& ScanMatcher::lastTiming() const { return work_->timing(); }

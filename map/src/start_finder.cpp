@@ -65,8 +65,7 @@ StartFinder::Place StartFinder::registerFrom(const Pose& from, double first_gate
       from, {.first_gate_m = first_gate_m,
              .first_iterations = 6,
              .gate_m = std::min(settings_.fine_distance_m, settings_.max_distance_m),
-             .max_iterations = settings_.max_iterations,
-             .shared_errors = false});
+             .max_iterations = settings_.max_iterations});
   place.evidence = weighStart(registration, place.alignment, map_, rays);
   return place;
 }

@@ -115,7 +115,9 @@ double processorMs() {
 CaseResult registerOnce(ScanMatcher& matcher, const Case& one) {
   CaseResult result;
   const double before_ms = processorMs();
+  const auto start = std::chrono::steady_clock::now();
   result.match = matcher.match(one.scan, toMrpt(one.guess), 0.1, 0.02);
+  const std::chrono::duration<double, std::milli> whole = std::chrono::steady_clock::now() - start;
   result.cpu_ms = processorMs() - before_ms;
   const ScanMatcher::Timing& timing = matcher.lastTiming();
   result.filter_ms = 1e3 * timing.filter_s;
@@ -123,8 +125,7 @@ CaseResult registerOnce(ScanMatcher& matcher, const Case& one) {
   result.solve_ms = 1e3 * timing.solve_s;
   result.information_ms = 1e3 * timing.information_s;
   result.spectrum_ms = 1e3 * timing.spectrum_s;
-  result.match_ms =
-      result.association_ms + result.solve_ms + result.information_ms + result.spectrum_ms;
+  result.match_ms = whole.count() - result.filter_ms;
   return result;
 }
 

@@ -47,4 +47,15 @@ struct ObservedDirections {
 PALOC_EXPORT ObservedDirections observeDirections(std::span<const PlaneRow> rows,
                                                   const Mat6& spread, double normal_noise_rad);
 
+/// The same in two parts. The first is all that takes time and needs no spread.
+class PALOC_EXPORT DirectionObserver {
+ public:
+  DirectionObserver(std::span<const PlaneRow> rows, double normal_noise_rad);
+  ObservedDirections under(const Mat6& spread) const;
+
+ private:
+  Mat6 geometry_;                               // the rows' own information
+  std::array<MatchDirection, 6> directions_{};  // without sigmas
+};
+
 }  // namespace paloc
