@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <random>
+#include <vector>
 
 #include "paloc/core/errors.h"
 #include "simulated_rooms.h"
@@ -31,6 +32,77 @@ TEST(PriorMap, NearestEqualsBruteForce) {
     }
   }
 }
+
+// A floor and a wall, some way from the origin of the local frame, where single precision is
+// coarse.
+PointCloud cornerAt(const Point3f& corner, float spacing_m, int points_across) {
+  PointCloud cloud;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> uniform(0, 0.7F * spacing_m);
+  for (int i = 0; i < points_across; ++i) {
+    for (int k = 0; k < points_across; ++k) {
+      const auto u = static_cast<float>(i) * spacing_m + uniform(random),
+                 v = static_cast<float>(k) * spacing_m + uniform(random);
+      cloud.points.push_back({corner.x + u, corner.y + v, corner.z});
+      cloud.points.push_back({corner.x, corner.y + u, corner.z + v});
+    }
+  }
+  return cloud;
+}
+
+struct NearMap {
+  Point3f corner;
+  float spacing_m;
+  double voxel_m;
+};
+
+class NearestNearTheMap : public testing::TestWithParam<NearMap> {};
+
+// Where the table of cubes answers: on its points, between them, on the borders of its cubes.
+TEST_P(NearestNearTheMap, EqualsBruteForceOneByOneAndTogether) {
+  const auto& [corner, spacing_m, voxel_m] = GetParam();
+  MapSettings settings;
+  settings.voxel_m = voxel_m;
+  settings.plane_max_radius_m = 4 * static_cast<double>(spacing_m);
+  const auto map = PriorMap::build(cornerAt(corner, spacing_m, 40), settings);
+  std::mt19937 random(4);
+  std::normal_distribution<float> off(0, 0.7F * spacing_m);
+  std::uniform_int_distribution<std::uint32_t> any(0, static_cast<std::uint32_t>(map->size() - 1));
+  const float within_m = 3 * spacing_m;
+  std::vector<PriorMap::Query> queries;
+  std::vector<float> nearest_sq;
+  for (int i = 0; i < 500; ++i) {
+    const Point3f about = map->point(any(random));
+    Point3f query{about.x + off(random), about.y + off(random), about.z + off(random)};
+    if (i % 3 == 0) query.x = std::round(query.x / 0.4F) * 0.4F;  // a border
+    float best = within_m * within_m;
+    for (std::uint32_t k = 0; k < map->size(); ++k) {
+      const Point3f& p = map->point(k);
+      const float dx = p.x - query.x, dy = p.y - query.y, dz = p.z - query.z;
+      best = std::min(best, dx * dx + dy * dy + dz * dz);
+    }
+    const PriorMap::Nearest nearest = map->nearest(query, within_m);
+    ASSERT_EQ(nearest.found(), best < within_m * within_m);
+    if (nearest.found()) {
+      ASSERT_FLOAT_EQ(nearest.distance_sq, best);
+    }
+    queries.push_back({query, i % 2 == 0 ? any(random) : PriorMap::kNoPoint});
+    nearest_sq.push_back(nearest.found() ? nearest.distance_sq : -1);
+  }
+  std::vector<PriorMap::Nearest> together(queries.size());
+  const Point3f viewer{corner.x + 5, corner.y + 5, corner.z + 5};  // sees both
+  map->nearestSeenFrom(viewer, within_m, queries, together);
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    ASSERT_EQ(together[i].found() ? together[i].distance_sq : -1, nearest_sq[i]) << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Maps, NearestNearTheMap,
+                         testing::Values(NearMap{{0, 0, 0}, 0.1F, 0.05},
+                                         NearMap{{-7.3F, 2.1F, -1.9F}, 0.03F, 0.05},
+                                         NearMap{{-7.3F, 2.1F, -1.9F}, 0.01F, 0},
+                                         NearMap{{3000, -2500, 40}, 0.1F, 0.05},
+                                         NearMap{{12, 30, 1}, 1.0F, 0.05}));
 
 TEST(PriorMap, PlanesLieOnTheWalls) {
   const test::BoxWorld world = test::emptyRoom();
