@@ -28,7 +28,8 @@ std::size_t cellOf(const Point3f& ray) {
   const auto place = [half](float along) {
     const float cell = along * half + 0.5F * kCellsAcross;
     // Also where that is not a number.
-    return cell > 0 ? static_cast<std::size_t>(std::min(cell, kCellsAcross - 1.0F)) : 0;
+    const float bounded = cell > 0 ? std::min(cell, kCellsAcross - 1.0F) : 0.0F;
+    return static_cast<std::size_t>(static_cast<std::int32_t>(bounded));  // the quicker way
   };
   return (face * kCellsAcross + place(u)) * kCellsAcross + place(v);
 }
