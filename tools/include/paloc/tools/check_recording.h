@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "paloc/frontends/finding.h"
+#include "paloc/frontends/frontend_settings.h"
+#include "paloc/frontends/motion_comparison.h"
+
+namespace paloc {
+
+/// What the checks of a recording came to.
+struct RecordingCheck {
+  std::string file;
+  std::uint64_t observations = 0;
+  Findings findings;  ///< without notes
+  Findings notes;
+  std::vector<MotionComparison> motions;
+  std::string damage;   ///< one sentence; empty if the file is whole
+  TimeNs first_ns = 0;  ///< of the recording: findings are told in seconds after it
+
+  bool clean() const { return findings.empty() && damage.empty(); }
+};
+
+/// Reads a recording once, as a stream, with all checks. `progress` is told the share of the file's
+/// bytes read. Throws IoError if it cannot be opened or holds nothing.
+RecordingCheck checkRecording(const std::filesystem::path& file, const FrontendSettings& settings,
+                              const std::function<void(double share)>& progress);
+
+std::string textOf(const RecordingCheck& check);
+nlohmann::ordered_json jsonOf(const RecordingCheck& check);
+
+/// "clock-offset", severity, label, value, unit, time and sentence of one finding.
+nlohmann::ordered_json jsonOf(const Finding& finding);
+
+}  // namespace paloc
