@@ -12,6 +12,7 @@
 #include "paloc/frontends/imu_reader.h"
 #include "paloc/frontends/lidar_decoder.h"
 #include "paloc/frontends/mrpt_time.h"
+#include "paloc/frontends/tum_file.h"
 #include "stream_choice.h"
 
 namespace paloc {
@@ -51,6 +52,12 @@ bool isOfPointTimes(const Finding& finding) {
   return finding.check == "point-times" && finding.severity == Severity::kError;
 }
 
+bool isTold(const Findings& findings, const Finding& finding) {
+  return std::any_of(findings.begin(), findings.end(), [&](const Finding& told) {
+    return told.check == finding.check && told.label == finding.label;
+  });
+}
+
 }  // namespace
 
 struct DataChecks::Impl {
@@ -62,6 +69,7 @@ struct DataChecks::Impl {
         odometry("odometry", settings.odometry_label),
         motion(settings) {}
 
+  void readOdometryFile();
   Stream& streamOf(StreamKind kind, const CObservation& observation);
   void addImu(const CObservationIMU& observation, TimeNs t_ns);
   void addOdometry(const CObservation& observation, TimeNs t_ns);
@@ -77,6 +85,12 @@ struct DataChecks::Impl {
   std::vector<MotionComparison> motions;
   Findings findings;
 };
+
+void DataChecks::Impl::readOdometryFile() {
+  for (const StampedPose& stamped : readTum(settings.odometry_file)) {
+    motion.addOdometry(settings.odometry_file, {stamped.t_ns, stamped.pose, std::nullopt});
+  }
+}
 
 Stream& DataChecks::Impl::streamOf(StreamKind kind, const CObservation& observation) {
   const std::string class_name = observation.GetRuntimeClass()->className;
@@ -107,6 +121,7 @@ void DataChecks::Impl::addOdometry(const CObservation& observation, TimeNs t_ns)
   const auto pose = decodeOdometry(observation, refusal);
   if (!pose) return stream.each([&](DataCheck& check) { check.addRefused(t_ns, refusal); });
   stream.each([&](DataCheck& check) { check.addOdometry(*pose); });
+  if (!settings.odometry_file.empty()) return;  // it is used instead
   if (odometry.takes(stream.class_name, observation.sensorLabel)) {
     motion.addOdometry(observation.sensorLabel, *pose);
   }
@@ -134,15 +149,22 @@ void DataChecks::Impl::judgeMotions() {
   motions = motion.compare();
   if (times_wrong) std::erase_if(motions, [](const auto& of) { return !of.of_odometry; });
   for (const MotionComparison& comparison : motions) {
-    judgeAgreement(comparison, findings);
-    judgeGyroUnit(comparison, findings);
-    judgeExtrinsics(comparison, findings);
-    judgeClockOffset(comparison, findings);
+    Findings judged;
+    judgeAgreement(comparison, judged);
+    judgeGyroUnit(comparison, judged);
+    judgeExtrinsics(comparison, judged);
+    judgeClockOffset(comparison, judged);
+    // Of the IMU alone one sensor has told enough.
+    for (Finding& finding : judged) {
+      if (!isTold(findings, finding)) findings.push_back(std::move(finding));
+    }
   }
 }
 
 DataChecks::DataChecks(const FrontendSettings& settings, Extent extent)
-    : impl_(std::make_unique<Impl>(settings, extent)) {}
+    : impl_(std::make_unique<Impl>(settings, extent)) {
+  if (!settings.odometry_file.empty()) impl_->readOdometryFile();
+}
 DataChecks::~DataChecks() = default;
 
 void DataChecks::add(const CObservation& observation) {

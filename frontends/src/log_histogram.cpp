@@ -16,6 +16,8 @@ int LogHistogram::binOf(double value) {
   return static_cast<int>(std::min<double>(kBins - 1, 1 + std::log(value / kSmallest) / kLogStep));
 }
 
+double LogHistogram::valueOf(int bin) { return kSmallest * std::exp((bin - 0.5) * kLogStep); }
+
 void LogHistogram::add(double value) {
   ++bins_[static_cast<std::size_t>(binOf(value))];
   ++count_;
@@ -27,7 +29,7 @@ double LogHistogram::quantile(double q) const {
   std::uint64_t below = 0;
   std::size_t bin = 0;
   while (bin + 1 < bins_.size() && below + bins_[bin] < wanted) below += bins_[bin++];
-  return kSmallest * std::exp((static_cast<double>(bin) - 0.5) * kLogStep);
+  return valueOf(static_cast<int>(bin));
 }
 
 std::uint64_t LogHistogram::countAbove(double value) const {

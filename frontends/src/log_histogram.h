@@ -14,9 +14,19 @@ class LogHistogram {
   double quantile(double q) const;
   std::uint64_t countAbove(double value) const;
 
+  /// Calls tell(value, count) for each value that came, to half a percent, in order.
+  template <typename Tell>
+  void each(const Tell& tell) const {
+    for (int bin = 0; bin < kBins; ++bin) {
+      const std::uint64_t count = bins_[static_cast<std::size_t>(bin)];
+      if (count > 0) tell(valueOf(bin), count);
+    }
+  }
+
  private:
   static constexpr int kBins = 3242;  // of 1 %: ln(1e14) / ln(1.01), and two for the ends
   static int binOf(double value);
+  static double valueOf(int bin);
 
   std::array<std::uint64_t, kBins> bins_{};
   std::uint64_t count_ = 0;

@@ -19,19 +19,20 @@ double rmsOf(const std::vector<TurnStep>& steps) {
   return steps.empty() ? 0 : std::sqrt(sum / static_cast<double>(steps.size()));
 }
 
-// The part of a small turn along the directions that are known to a third of a degree.
+// The part of the turn along directions that are known to a third of a degree, or to be far off.
 void setRotationError(const TurnFit& fit, MotionComparison& motion) {
-  constexpr double kKnown = 0.006;  // rad
+  constexpr double kKnown = 0.006, kFarSigmas = 6;  // rad
   const Mat3 R = motion.R_body_sensor;
   const Vec3 error = so3::log(R * motion.R_body_sensor_configured.transpose());
   const Eigen::SelfAdjointEigenSolver<Mat3> eigen(R * fit.rotation_covariance * R.transpose());
   Vec3 known = Vec3::Zero();
   double variance = 0;
   for (int i = 0; i < 3; ++i) {
-    if (!(eigen.eigenvalues()[i] < kKnown * kKnown)) continue;
     const Vec3 axis = eigen.eigenvectors().col(i);
-    known += axis * axis.dot(error);
-    variance = std::max(variance, eigen.eigenvalues()[i]);
+    const double off = axis.dot(error), sigma = std::sqrt(std::max(0.0, eigen.eigenvalues()[i]));
+    if (!(sigma < kKnown || std::abs(off) > kFarSigmas * sigma)) continue;
+    known += axis * off;
+    variance = std::max(variance, sigma * sigma);
   }
   motion.rotation_error_body = known;
   motion.rotation_error_sigma_rad = std::sqrt(variance);
@@ -90,6 +91,8 @@ void MotionCheck::addOdometry(const std::string& label, const OdometryPose& pose
 
 void MotionCheck::addScan(const LidarFrame& frame) {
   if (!inTime(frame.stamp_ns) || sequences_.size() == kMostSequences) return;
+  if (last_scan_ns_ && frame.stamp_ns <= *last_scan_ns_) return;  // comes again
+  last_scan_ns_ = frame.stamp_ns;
   has_scans_ = true;
   lidar_label_ = frame.label;
   R_body_lidar_ = frame.T_body_lidar.rotation;

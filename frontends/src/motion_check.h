@@ -45,6 +45,7 @@ class MotionCheck {
   ScanSequence sequence_;                // being filled
   std::vector<ScanSequence> sequences_;  // tracked, that turn
   bool has_scans_ = false;
+  std::optional<TimeNs> last_scan_ns_;
 };
 
 }  // namespace paloc

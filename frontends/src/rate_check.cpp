@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "data_check.h"
@@ -98,14 +99,20 @@ class RateCheck : public DataCheck {
 
   void reportEvenness(Findings& findings) const {
     if (stream_.kind == StreamKind::kOdometry) return;  // some come when they are ready
-    const double low = steps_.quantile(0.1), mid = steps_.quantile(0.5),
-                 high = steps_.quantile(0.9);
-    if (low > 0.5 * mid && high < 1.5 * mid) return;
+    // Twice or three times the usual step is a sample that is missing: a gap, not unevenness.
+    const double usual = steps_.quantile(0.5);
+    std::uint64_t off = 0;
+    steps_.each([&](double step, std::uint64_t count) {
+      const double times = step / usual;
+      if (std::abs(times - std::max(1.0, std::round(times))) > 0.3) off += count;
+    });
+    const double share = static_cast<double>(off) / static_cast<double>(steps_.count());
+    if (share < 0.1) return;
     Finding finding = stream_.finding("uneven", Severity::kWarning);
-    finding.value = high / low;
+    finding.value = share;
     finding.sentence =
-        text(stream_.name(), " has uneven stamps (a tenth of the steps below ",
-             figure("%.3g", 1e3 * low), " ms, a tenth above ", figure("%.3g", 1e3 * high),
+        text(stream_.name(), " has uneven stamps (", figure("%.0f", 100 * share),
+             " % of the steps are no multiple of the usual ", figure("%.3g", 1e3 * usual),
              " ms): they seem to tell when data arrived; use the sensor's own clock");
     findings.push_back(finding);
   }

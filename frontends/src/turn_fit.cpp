@@ -103,12 +103,15 @@ TurnFit bestOnGrid(const std::vector<TurnStep>& steps, const GyroTrack& readings
   return best;
 }
 
+constexpr double kMedianOfNorm = 1.538;  // of three unit normals
 constexpr int kOffset = 0, kAxes = 1, kBias = 4, kScale = 7, kUnknowns = 8;
 using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
 using Normal = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 using Rows = Eigen::Matrix<double, 3, kUnknowns>;
 
 struct Row {
+  TimeNs from_ns = 0, to_ns = 0;
+  Mat3 G;  // the turn as read, in the sensor's frame
   Vec3 residual;
   Rows jacobian;
 };
@@ -122,6 +125,9 @@ Row rowOf(const TurnStep& step, const GyroTrack& in_sensor, double offset_s) {
   const Vec3 rate_from = in_sensor.meanRate(from - step.window_ns, from),
              rate_to = in_sensor.meanRate(to - step.window_ns, to);
   Row row;
+  row.from_ns = step.from_ns;
+  row.to_ns = step.to_ns;
+  row.G = G;
   row.residual = so3::log(G.transpose() * so3::exp(step.turn));
   row.jacobian.col(kOffset) = rate_to - G.transpose() * rate_from;
   row.jacobian.middleCols<3>(kAxes) = G.transpose() - Mat3::Identity();
@@ -156,7 +162,6 @@ struct Solution {
 
 // Iteratively reweighted least squares with Huber's weights.
 Solution solveRows(const std::vector<Row>& rows) {
-  constexpr double kMedianOfNorm = 1.538;  // of three unit normals
   constexpr double kHuber = 2.5, kSmallest = 1e-9;
   Solution solution;
   for (int round = 0; round < 6; ++round) {
@@ -175,6 +180,40 @@ Solution solveRows(const std::vector<Row>& rows) {
     solution.covariance = solution.sigma * solution.sigma * ldlt.solve(Normal::Identity());
   }
   return solution;
+}
+
+/// A scan that is turned wrongly makes one step too long and the next too short: residuals r_k =
+/// e_k - theta e_(k-1), e white, with theta near 1 for scans and 0 for steps with errors of their
+/// own. Estimates theta from the correlation of neighbours, -theta / (1 + theta^2).
+double movingAverage(const std::vector<Row>& rows, const Solution& solution) {
+  constexpr double kGreatest = 0.9;
+  double product = 0, square = 0;
+  const auto left = [&](const Row& row) {
+    const Vec3 r = row.residual - row.jacobian * solution.x;
+    return Vec3(r * std::min(1.0, 4 * solution.sigma / std::max(r.norm(), 1e-12)));
+  };
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    if (rows[i].from_ns != rows[i - 1].to_ns) continue;
+    const Vec3 r = left(rows[i]);
+    product += r.dot(rows[i].G.transpose() * left(rows[i - 1]));
+    square += r.squaredNorm();
+  }
+  if (!(product < 0)) return 0;
+  const double correlation = product / square;
+  if (correlation < -0.497) return kGreatest;
+  return std::min(kGreatest,
+                  (-1 + std::sqrt(1 - 4 * correlation * correlation)) / (2 * correlation));
+}
+
+/// Rows whose residuals are the white e_k above.
+std::vector<Row> whitened(std::vector<Row> rows, double theta) {
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    if (rows[i].from_ns != rows[i - 1].to_ns) continue;
+    const Mat3 carried = theta * rows[i].G.transpose();
+    rows[i].residual += carried * rows[i - 1].residual;
+    rows[i].jacobian += carried * rows[i - 1].jacobian;
+  }
+  return rows;
 }
 
 double rms(const std::vector<TurnStep>& steps) {
@@ -207,7 +246,8 @@ TurnFit refineTurnFit(const std::vector<TurnStep>& steps, const GyroTrack& gyro,
     const std::vector<Row> rows = rowsOf(steps, in_sensor, fit.offset_s);
     fit.steps = rows.size();
     if (rows.size() < kFewestSteps) return fit;
-    const Solution solution = solveRows(rows);
+    const Solution plain = solveRows(rows);
+    const Solution solution = solveRows(whitened(rows, movingAverage(rows, plain)));
     const Unknowns& x = solution.x;
     constexpr double kLongestStep = 0.02;  // s: the rate's differences hold about so far
     fit.offset_s += std::clamp(x[kOffset], -kLongestStep, kLongestStep);
@@ -216,22 +256,16 @@ TurnFit refineTurnFit(const std::vector<TurnStep>& steps, const GyroTrack& gyro,
     fit.offset_sigma_s = std::sqrt(solution.covariance(kOffset, kOffset));
     fit.scale_sigma = std::sqrt(solution.covariance(kScale, kScale));
     fit.rotation_covariance = solution.covariance.block<3, 3>(kAxes, kAxes);
-    fit.residual_rms_rad = std::sqrt(3.0) * solution.sigma;
+    fit.residual_rms_rad = std::sqrt(3.0) * plain.sigma;
   }
   return fit;
 }
 
 double turnResidual(const std::vector<TurnStep>& steps, const GyroTrack& gyro, const TurnFit& fit) {
   const GyroTrack in_sensor = gyro.transformed(fit.scale * fit.R_sensor_imu);
-  double sum = 0;
-  std::size_t count = 0;
-  for (const TurnStep& step : steps) {
-    if (!covered(in_sensor, step, fit.offset_s)) continue;
-    const Mat3 G = readRotation(in_sensor, step, fit.offset_s);
-    sum += so3::log(G.transpose() * so3::exp(step.turn)).squaredNorm();
-    ++count;
-  }
-  return count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0;
+  const std::vector<Row> rows = rowsOf(steps, in_sensor, fit.offset_s);
+  if (rows.empty()) return 0;
+  return std::sqrt(3.0) * medianNorm(rows, Unknowns::Zero()) / kMedianOfNorm;
 }
 
 }  // namespace paloc

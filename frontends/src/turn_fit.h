@@ -50,7 +50,7 @@ std::optional<TurnFit> findTurnFit(const std::vector<TurnStep>& steps, const Gyr
 TurnFit refineTurnFit(const std::vector<TurnStep>& steps, const GyroTrack& gyro, TurnFit fit,
                       int rounds = 5);
 
-/// Root mean square of what a fit leaves of the turns (rad), as it stands.
+/// What a fit leaves of the turns as it stands: root mean square (rad), from the median.
 double turnResidual(const std::vector<TurnStep>& steps, const GyroTrack& gyro, const TurnFit& fit);
 
 }  // namespace paloc

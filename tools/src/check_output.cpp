@@ -4,6 +4,7 @@
 
 #include "paloc/core/text.h"
 #include "paloc/tools/check_recording.h"
+#include "paloc/tools/finding_json.h"
 
 namespace paloc {
 namespace {
@@ -17,18 +18,6 @@ std::string formatted(const char* format, Values... values) {
   char buffer[256];
   std::snprintf(buffer, sizeof buffer, format, values...);
   return buffer;
-}
-
-const char* severityName(Severity severity) {
-  switch (severity) {
-    case Severity::kNote:
-      return "note";
-    case Severity::kWarning:
-      return "warning";
-    case Severity::kError:
-      return "error";
-  }
-  return "";
 }
 
 std::string lineOf(const Finding& finding, TimeNs first_ns) {
@@ -94,23 +83,13 @@ std::string textOf(const RecordingCheck& check) {
   return out;
 }
 
-Json jsonOf(const Finding& finding) {
-  Json json = {{"check", finding.check},
-               {"severity", severityName(finding.severity)},
-               {"label", finding.label}};
-  json["value"] = finding.value ? Json(*finding.value) : Json();
-  json["unit"] = finding.unit;
-  json["t_s"] = finding.t_ns ? Json(1e-9 * static_cast<double>(*finding.t_ns)) : Json();
-  json["sentence"] = finding.sentence;
-  return json;
-}
-
 Json jsonOf(const RecordingCheck& check) {
-  Json json = {{"file", check.file},        {"observations", check.observations},
-               {"findings", Json::array()}, {"notes", Json::array()},
-               {"motion", Json::array()},   {"damage", check.damage}};
-  for (const Finding& finding : check.findings) json["findings"].push_back(jsonOf(finding));
-  for (const Finding& note : check.notes) json["notes"].push_back(jsonOf(note));
+  Json json = {{"file", check.file},
+               {"observations", check.observations},
+               {"findings", jsonOf(check.findings)},
+               {"notes", jsonOf(check.notes)},
+               {"motion", Json::array()},
+               {"damage", check.damage}};
   for (const MotionComparison& motion : check.motions) json["motion"].push_back(jsonOf(motion));
   return json;
 }

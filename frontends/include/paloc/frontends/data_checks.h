@@ -23,7 +23,7 @@ class PALOC_EXPORT DataChecks {
   };
 
   /// The labels in `settings` choose the streams whose motions are compared; the first of each
-  /// kind without.
+  /// kind without. Throws IoError if there is an odometry file that cannot be read.
   DataChecks(const FrontendSettings& settings, Extent extent);
   ~DataChecks();
   DataChecks(const DataChecks&) = delete;

@@ -34,7 +34,4 @@ RecordingCheck checkRecording(const std::filesystem::path& file, const FrontendS
 std::string textOf(const RecordingCheck& check);
 nlohmann::ordered_json jsonOf(const RecordingCheck& check);
 
-/// "clock-offset", severity, label, value, unit, time and sentence of one finding.
-nlohmann::ordered_json jsonOf(const Finding& finding);
-
 }  // namespace paloc
