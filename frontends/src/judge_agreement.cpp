@@ -24,6 +24,12 @@ void judgeAgreement(const MotionComparison& motion, Findings& findings) {
         "compared with ",
         nameOf(motion), "; swing the platform for ten seconds to have them checked");
     findings.push_back(finding);
+  } else if (motion.one_turn_open) {
+    Finding finding = findingOf(motion, "motion", Severity::kNote);
+    finding.sentence = text("the place does not tell ", nameOf(motion),
+                            " how it turns about one axis (a round hall, a tunnel): axes, unit and "
+                            "clock of the IMU cannot be compared with it there");
+    findings.push_back(finding);
   } else if (!motion.fits) {
     Finding finding = findingOf(motion, "motion", Severity::kError);
     finding.value = motion.fitted_rms_rad / motion.turn_rms_rad;

@@ -38,15 +38,30 @@ void setRotationError(const TurnFit& fit, MotionComparison& motion) {
   motion.rotation_error_sigma_rad = std::sqrt(variance);
 }
 
+// Whether two axes of the sensor turn as the gyroscope says, as configured, and only the third does
+// not: then it is the place that leaves this turn open (a round hall, a tunnel).
+bool leavesOneTurnOpen(const std::vector<TurnStep>& steps, const GyroTrack& gyro,
+                       const Mat3& R_sensor_imu) {
+  constexpr double kFits = 0.2;  // of the square turning about the two
+  TurnFit configured;
+  configured.R_sensor_imu = R_sensor_imu;
+  const Eigen::SelfAdjointEigenSolver<Mat3> left(turnResidual(steps, gyro, configured));
+  const Vec3 open = left.eigenvectors().col(2);
+  double turned = 0;
+  for (const TurnStep& step : steps)
+    turned += (step.turn - open * open.dot(step.turn)).squaredNorm();
+  return left.eigenvalues().head<2>().sum() < kFits * turned / static_cast<double>(steps.size());
+}
+
 void setFit(const TurnFit& fit, const std::vector<TurnStep>& steps, const GyroTrack& gyro,
             MotionComparison& motion) {
   constexpr double kObservable = 1e-3;  // s
   motion.steps = fit.steps;
   motion.turn_rms_rad = fit.turn_rms_rad;
-  motion.fitted_rms_rad = fit.residual_rms_rad;
+  motion.fitted_rms_rad = std::sqrt(turnResidual(steps, gyro, fit).trace());
   TurnFit configured = fit;
   configured.R_sensor_imu = motion.R_body_sensor_configured.transpose();
-  motion.configured_rms_rad = turnResidual(steps, gyro, configured);
+  motion.configured_rms_rad = std::sqrt(turnResidual(steps, gyro, configured).trace());
   motion.fits = fit.unexplained() < kMostUnexplained;
   motion.gyro_scale = fit.scale;
   motion.gyro_scale_sigma = fit.scale_sigma;
@@ -154,6 +169,7 @@ std::optional<MotionComparison> MotionCheck::compareLidar() {
     fit = refineTurnFit(steps, gyro_, *fit, 1);
   }
   setFit(*fit, steps, gyro_, motion);
+  motion.one_turn_open = !motion.fits && leavesOneTurnOpen(steps, gyro_, R_body_lidar_.transpose());
   return motion;
 }
 

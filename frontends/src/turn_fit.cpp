@@ -103,7 +103,6 @@ TurnFit bestOnGrid(const std::vector<TurnStep>& steps, const GyroTrack& readings
   return best;
 }
 
-constexpr double kMedianOfNorm = 1.538;  // of three unit normals
 constexpr int kOffset = 0, kAxes = 1, kBias = 4, kScale = 7, kUnknowns = 8;
 using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
 using Normal = Eigen::Matrix<double, kUnknowns, kUnknowns>;
@@ -162,6 +161,7 @@ struct Solution {
 
 // Iteratively reweighted least squares with Huber's weights.
 Solution solveRows(const std::vector<Row>& rows) {
+  constexpr double kMedianOfNorm = 1.538;  // of three unit normals
   constexpr double kHuber = 2.5, kSmallest = 1e-9;
   Solution solution;
   for (int round = 0; round < 6; ++round) {
@@ -261,11 +261,12 @@ TurnFit refineTurnFit(const std::vector<TurnStep>& steps, const GyroTrack& gyro,
   return fit;
 }
 
-double turnResidual(const std::vector<TurnStep>& steps, const GyroTrack& gyro, const TurnFit& fit) {
+Mat3 turnResidual(const std::vector<TurnStep>& steps, const GyroTrack& gyro, const TurnFit& fit) {
   const GyroTrack in_sensor = gyro.transformed(fit.scale * fit.R_sensor_imu);
   const std::vector<Row> rows = rowsOf(steps, in_sensor, fit.offset_s);
-  if (rows.empty()) return 0;
-  return std::sqrt(3.0) * medianNorm(rows, Unknowns::Zero()) / kMedianOfNorm;
+  Mat3 sum = Mat3::Zero();
+  for (const Row& row : rows) sum += row.residual * row.residual.transpose();
+  return sum / static_cast<double>(std::max<std::size_t>(1, rows.size()));
 }
 
 }  // namespace paloc

@@ -50,7 +50,8 @@ std::optional<TurnFit> findTurnFit(const std::vector<TurnStep>& steps, const Gyr
 TurnFit refineTurnFit(const std::vector<TurnStep>& steps, const GyroTrack& gyro, TurnFit fit,
                       int rounds = 5);
 
-/// What a fit leaves of the turns as it stands: root mean square (rad), from the median.
-double turnResidual(const std::vector<TurnStep>& steps, const GyroTrack& gyro, const TurnFit& fit);
+/// Mean square of what a fit leaves of the turns as it stands (rad2, 3 x 3, in the sensor's frame),
+/// outliers and all.
+Mat3 turnResidual(const std::vector<TurnStep>& steps, const GyroTrack& gyro, const TurnFit& fit);
 
 }  // namespace paloc

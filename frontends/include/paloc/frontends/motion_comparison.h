@@ -19,6 +19,8 @@ struct MotionComparison {
   double configured_rms_rad = 0, fitted_rms_rad = 0;
   bool turns = false;  ///< the body turns enough to tell anything
   bool fits = false;   ///< the gyroscope explains the turning in some way
+  /// It does not, but about two axes: the place leaves the turn about the third open.
+  bool one_turn_open = false;
 
   double gyro_scale = 1, gyro_scale_sigma = 0;  ///< true rate over reading
   Mat3 R_body_sensor = Mat3::Identity();        ///< as fits best; det = -1: left-handed
