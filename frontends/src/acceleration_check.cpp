@@ -17,7 +17,11 @@ class AccelerationCheck : public DataCheck {
  public:
   explicit AccelerationCheck(const CheckedStream& stream) : stream_(stream) {}
 
-  void addImu(const ImuSample& sample) override { norms_.add(sample.acc_body.norm()); }
+  void addImu(const ImuSample& sample) override {
+    norms_.add(sample.acc_body.norm());
+    sum_ += sample.acc_body;
+    sum_of_norms_ += sample.acc_body.norm();
+  }
 
   void report(Findings& findings) const override {
     const double median = norms_.quantile(0.5);
@@ -38,12 +42,13 @@ class AccelerationCheck : public DataCheck {
     const std::string reads =
         text("the accelerometer of ", stream_.name(), " reads ", figure("%.3g", median),
              " where gravity alone makes 9.81 m/s2: ");
-    if (norms_.quantile(0.1) > 0.8 * median) {
+    if (sum_.norm() > 0.5 * sum_of_norms_) {  // gravity is in it: it points one way
       if (isNear(median, 1)) return reads + "it is in g; multiply it by 9.80665 before the import";
-      if (isNear(median, 1e3)) {
-        return reads + "it is in thousandths of g; multiply it by 0.00980665 before the import";
+      if (isNear(median, 990)) {  // 1000 or 981: too near to each other
+        return reads +
+               "it is in thousandths of g or in cm/s2, see its manual; convert it to m/s2 before "
+               "the import";
       }
-      if (isNear(median, 981)) return reads + "it is in cm/s2; divide it by 100 before the import";
       return reads + "its unit or scale is wrong; convert it to m/s2 before the import";
     }
     if (median < 0.5 * kGravity) {
@@ -55,6 +60,8 @@ class AccelerationCheck : public DataCheck {
 
   CheckedStream stream_;
   LogHistogram norms_;
+  Vec3 sum_ = Vec3::Zero();
+  double sum_of_norms_ = 0;
 };
 
 }  // namespace

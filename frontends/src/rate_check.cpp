@@ -104,7 +104,8 @@ class RateCheck : public DataCheck {
     std::uint64_t off = 0;
     steps_.each([&](double step, std::uint64_t count) {
       const double times = step / usual;
-      if (std::abs(times - std::max(1.0, std::round(times))) > 0.3) off += count;
+      const double whole = std::clamp(std::round(times), 1.0, 5.0);
+      if (std::abs(times - whole) > 0.3) off += count;
     });
     const double share = static_cast<double>(off) / static_cast<double>(steps_.count());
     if (share < 0.1) return;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -12,21 +13,26 @@ namespace {
 class Extreme {
  public:
   void add(double value, TimeNs t_ns) {
-    if (value > greatest_) *this = Extreme{value, t_ns};
-    const bool at = value == greatest_;
-    run_ = at ? run_ + 1 : 0;
-    if (at) ++times_;
+    const double step = std::abs(value - last_);
+    if (step > 0) bit_ = std::min(bit_, step);
+    last_ = value;
+    if (value > greatest_) rise(value, t_ns);
+    run_ = value == greatest_ ? run_ + 1 : 0;
+    if (value == greatest_) {
+      ++times_;
+    } else if (value > greatest_ - band()) {
+      ++near_;
+    }
     if (run_ == 2 && secondsBetween(last_run_ns_, t_ns) > kApart) {
       ++runs_;
       last_run_ns_ = t_ns;
     }
-    if (run_ == kLongRun) long_run_ = true;
   }
 
-  /// A signal that is cut off comes to the same greatest value again and again and stays there. One
-  /// that is merely coarse seldom reaches the same peak twice.
+  /// A signal that is cut off comes to the same greatest value again and again and stays there,
+  /// while it passes quickly through the values below. A peak of a coarse signal dwells there too.
   bool isClipped(double range) const {
-    return (runs_ >= 3 || (long_run_ && runs_ >= 2)) && greatest_ > 0.2 * range;
+    return runs_ >= 2 && times_ >= 10 && times_ > 3 * near_ && greatest_ > 0.2 * range;
   }
   double greatest() const { return greatest_; }
   std::uint64_t times() const { return times_; }
@@ -34,18 +40,24 @@ class Extreme {
 
  private:
   static constexpr double kApart = 0.2;  // s: another swing of the signal
-  static constexpr int kLongRun = 10;
 
-  Extreme(double value, TimeNs t_ns) : greatest_(value), first_ns_(t_ns) {}
+  double band() const { return std::max(0.03 * std::abs(greatest_), 3.5 * bit_); }
 
-  double greatest_ = -INFINITY;
+  void rise(double value, TimeNs t_ns) {
+    const bool still_near = value - greatest_ < band();
+    near_ = still_near ? near_ + times_ : 0;
+    greatest_ = value;
+    first_ns_ = t_ns;
+    last_run_ns_ = INT64_MIN / 2;
+    times_ = 0;
+    run_ = runs_ = 0;
+  }
+
+  double greatest_ = -INFINITY, last_ = NAN;
+  double bit_ = INFINITY;  // the smallest step seen: how coarse the signal is
   TimeNs first_ns_ = 0, last_run_ns_ = INT64_MIN / 2;
-  std::uint64_t times_ = 0;
-  int run_ = 0, runs_ = 0;
-  bool long_run_ = false;
-
- public:
-  Extreme() = default;
+  std::uint64_t times_ = 0, near_ = 0;  // at the greatest value, just below
+  int run_ = 0, runs_ = 0;              // samples in a row at it; such runs
 };
 
 class SaturationCheck : public DataCheck {

@@ -34,7 +34,7 @@ TEST(AccelerationCheck, NamesTheUnit) {
   EXPECT_NE(in_g.sentence("acceleration-unit").find("is in g;"), std::string::npos);
   EXPECT_NE(check(scaled(1000 / 9.81)).sentence("acceleration-unit").find("thousandths of g"),
             std::string::npos);
-  EXPECT_NE(check(scaled(100)).sentence("acceleration-unit").find("cm/s2"), std::string::npos);
+  EXPECT_NE(check(scaled(100)).sentence("acceleration-unit").find("in cm/s2"), std::string::npos);
   EXPECT_NE(check(scaled(2)).sentence("acceleration-unit").find("scale is wrong"),
             std::string::npos);
 }
