@@ -6,6 +6,7 @@
 #include <deque>
 
 #include "data_check.h"
+#include "log_histogram.h"
 #include "motion_check.h"
 #include "motion_judges.h"
 #include "paloc/core/text.h"
@@ -74,6 +75,7 @@ struct DataChecks::Impl {
   void addImu(const CObservationIMU& observation, TimeNs t_ns);
   void addOdometry(const CObservation& observation, TimeNs t_ns);
   void addLidar(const CObservation& observation, TimeNs t_ns);
+  void addRanges(const LidarFrame& frame);
   void judgeMotions();
 
   FrontendSettings settings;
@@ -81,6 +83,7 @@ struct DataChecks::Impl {
   StreamChoice lidar, imu, odometry;
   std::deque<Stream> streams;  // in the order of their first observation
   MotionCheck motion;
+  LogHistogram ranges;
   LidarFrame recycled;
   std::vector<MotionComparison> motions;
   Findings findings;
@@ -139,8 +142,17 @@ void DataChecks::Impl::addLidar(const CObservation& observation, TimeNs t_ns) {
   if (!frame) return stream.each([&](DataCheck& check) { check.addRefused(t_ns, refusal); });
   stream.each([&](DataCheck& check) { check.addScan(*frame); });
   const bool chosen = lidar.takes(stream.class_name, observation.sensorLabel);
+  if (chosen) addRanges(*frame);
   if (chosen && extent == Extent::kFull) motion.addScan(*frame);
   recycled = std::move(*frame);
+}
+
+void DataChecks::Impl::addRanges(const LidarFrame& frame) {
+  constexpr std::size_t kStride = 97;  // some points tell it well enough
+  for (std::size_t i = 0; i < frame.points_lidar.size(); i += kStride) {
+    const Point3f& p = frame.points_lidar[i];
+    ranges.add(Vec3(p.x, p.y, p.z).norm());
+  }
 }
 
 // Scans whose point times are wrong move in a way that says nothing of the IMU.
@@ -189,5 +201,7 @@ void DataChecks::finish() {
 
 const Findings& DataChecks::findings() const { return impl_->findings; }
 const std::vector<MotionComparison>& DataChecks::motions() const { return impl_->motions; }
+
+double DataChecks::scanReach() const { return impl_->ranges.quantile(0.9); }
 
 }  // namespace paloc

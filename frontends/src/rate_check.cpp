@@ -100,20 +100,23 @@ class RateCheck : public DataCheck {
   void reportEvenness(Findings& findings) const {
     if (stream_.kind == StreamKind::kOdometry) return;  // some come when they are ready
     // Twice or three times the usual step is a sample that is missing: a gap, not unevenness.
-    const double usual = steps_.quantile(0.5);
-    std::uint64_t off = 0;
+    const double usual = steps_.quantile(0.5), longest = longestStep();
+    double off_s = 0, all_s = 0;
     steps_.each([&](double step, std::uint64_t count) {
-      const double times = step / usual;
+      if (step > longest) return;
+      const double time_s = step * static_cast<double>(count), times = step / usual;
       const double whole = std::clamp(std::round(times), 1.0, 5.0);
-      if (std::abs(times - whole) > 0.3) off += count;
+      all_s += time_s;
+      if (std::abs(times - whole) > 0.3) off_s += time_s;
     });
-    const double share = static_cast<double>(off) / static_cast<double>(steps_.count());
+    const double share = off_s / all_s;
     if (share < 0.1) return;
     Finding finding = stream_.finding("uneven", Severity::kWarning);
     finding.value = share;
     finding.sentence =
         text(stream_.name(), " has uneven stamps (", figure("%.0f", 100 * share),
-             " % of the steps are no multiple of the usual ", figure("%.3g", 1e3 * usual),
+             " % of the time is in steps that are no multiple of the usual ",
+             figure("%.3g", 1e3 * usual),
              " ms): they seem to tell when data arrived; use the sensor's own clock");
     findings.push_back(finding);
   }

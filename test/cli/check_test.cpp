@@ -62,6 +62,18 @@ TEST(CheckCli, NamesSeveralFaultsWithTheirRemedies) {
   EXPECT_FALSE(found.at("gaps lidar").at("t_s").is_null());
 }
 
+TEST(CheckCli, ComparesTheMapWithTheScans) {
+  const test::TempDir dir;
+  EXPECT_EQ(test::runPaloc({"check", test::demoLog(), "--map", test::demoMap()}).exit_code, 0);
+  std::string millimetres;
+  for (int i = 0; i < 2000; ++i) millimetres += std::to_string(50 * i) + " 0 " + "1200\n";
+  test::writeFile(dir / "mm.xyz", millimetres);
+  const auto run = test::runPaloc({"check", test::demoLog(), "--map", dir / "mm.xyz"});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.out.find("map-scale"), std::string::npos) << run.out;
+  EXPECT_EQ(test::runPaloc({"check", test::demoLog(), "--map", dir / "none"}).exit_code, 3);
+}
+
 TEST(CheckCli, TellsADamagedRecording) {
   const test::TempDir dir;
   const std::string whole = test::readFile(test::demoLog());

@@ -17,7 +17,7 @@ values that are not finite or clipped, and times of points; each finding tells t
 turning of up to 40 s of scans, and of a recorded odometry, is compared with the gyroscope's.
 
 Example:
-  paloc check recording.rawlog
+  paloc check recording.rawlog --map map.ply
   paloc check recording.rawlog --set frontend.imu_label=imu2 --json
 
 Exit codes: 0 nothing wrong found, 1 there are findings or the file is damaged, 2 wrong usage or
@@ -28,6 +28,7 @@ class CheckCommand : public Command {
   void registerOn(CLI::App& app) override {
     check_ = app.add_subcommand("check", "What is wrong with a recording, and how to mend it");
     check_->add_option("LOG", file_, "recording (MRPT rawlog)")->required();
+    check_->add_option("--map", map_, "prior map, whose scale is checked, too");
     config_.registerOn(*check_);
     check_->add_flag("--json", json_, "one JSON object on standard output");
     check_->footer(kExample);
@@ -43,7 +44,7 @@ class CheckCommand : public Command {
       std::snprintf(buffer, sizeof buffer, "checking: %3.0f %%", 100 * share);
       line.show(buffer);
     };
-    const RecordingCheck check = checkRecording(file_, config.frontend, progress);
+    const RecordingCheck check = checkRecording(file_, map_, config.frontend, progress);
     line.finish();
     if (json_) {
       std::cout << jsonOf(check).dump(2) << '\n';
@@ -57,7 +58,7 @@ class CheckCommand : public Command {
 
  private:
   CLI::App* check_ = nullptr;
-  std::string file_;
+  std::string file_, map_;
   ConfigOptions config_;
   bool json_ = false;
 };

@@ -5,12 +5,15 @@
 #include "paloc/core/errors.h"
 #include "paloc/core/text.h"
 #include "paloc/frontends/data_checks.h"
+#include "paloc/frontends/map_scale_check.h"
 #include "paloc/frontends/mrpt_time.h"
 #include "paloc/frontends/rawlog_stream.h"
+#include "paloc/map/cloud_io.h"
 
 namespace paloc {
 
-RecordingCheck checkRecording(const std::filesystem::path& file, const FrontendSettings& settings,
+RecordingCheck checkRecording(const std::filesystem::path& file, const std::filesystem::path& map,
+                              const FrontendSettings& settings,
                               const std::function<void(double share)>& progress) {
   RawlogStream stream(file);
   DataChecks checks(settings, DataChecks::Extent::kFull);
@@ -28,7 +31,13 @@ RecordingCheck checkRecording(const std::filesystem::path& file, const FrontendS
   checks.finish();
   result.damage = stream.error();
   result.motions = checks.motions();
-  for (const Finding& finding : checks.findings()) {
+  Findings findings = checks.findings();
+  if (!map.empty()) {
+    const Findings of_map =
+        checkMapScale(loadCloud(map), map.filename().string(), checks.scanReach());
+    findings.insert(findings.end(), of_map.begin(), of_map.end());
+  }
+  for (const Finding& finding : findings) {
     (finding.severity == Severity::kNote ? result.notes : result.findings).push_back(finding);
   }
   return result;

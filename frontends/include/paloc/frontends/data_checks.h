@@ -37,6 +37,8 @@ class PALOC_EXPORT DataChecks {
   const Findings& findings() const;
   /// The figures behind those of units, axes and clocks.
   const std::vector<MotionComparison>& motions() const;
+  /// How far nine tenths of the returns are at most (m); 0 if no scan was looked at.
+  double scanReach() const;
 
  private:
   struct Impl;

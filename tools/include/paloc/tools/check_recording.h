@@ -27,8 +27,10 @@ struct RecordingCheck {
 };
 
 /// Reads a recording once, as a stream, with all checks. `progress` is told the share of the file's
-/// bytes read. Throws IoError if it cannot be opened or holds nothing.
-RecordingCheck checkRecording(const std::filesystem::path& file, const FrontendSettings& settings,
+/// bytes read. `map`: the prior map, whose scale is then checked, too; empty if there is none.
+/// Throws IoError if a file cannot be opened or the recording holds nothing.
+RecordingCheck checkRecording(const std::filesystem::path& file, const std::filesystem::path& map,
+                              const FrontendSettings& settings,
                               const std::function<void(double share)>& progress);
 
 std::string textOf(const RecordingCheck& check);
