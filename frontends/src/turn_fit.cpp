@@ -81,10 +81,11 @@ TurnFit bestOnGrid(const std::vector<TurnStep>& steps, const GyroTrack& readings
                    const Mat3& hold, bool left_handed) {
   const double rough = roughScale(steps, readings_track);
   const GyroTrack gyro = readings_track.transformed(rough * Mat3::Identity());
-  constexpr double kSpacing = 0.01;  // s
+  constexpr int kEachWay = 12;
+  constexpr double kSpacing = 0.98 * kFurthest / kEachWay;  // 20 ms: refining goes on from there
   TurnFit best;
   double least = INFINITY;
-  for (int k = -25; k <= 25; ++k) {
+  for (int k = -kEachWay; k <= kEachWay; ++k) {
     const double offset_s = kSpacing * k;
     std::vector<Vec3> turns, readings;
     for (const TurnStep& step : steps) {
@@ -232,6 +233,8 @@ std::optional<TurnFit> findTurnFit(const std::vector<TurnStep>& steps, const Gyr
   });
   if (usable < static_cast<std::ptrdiff_t>(kFewestSteps)) return std::nullopt;
   const TurnFit right = refineTurnFit(steps, gyro, bestOnGrid(steps, gyro, R_sensor_imu, false));
+  constexpr double kWell = 0.003;
+  if (right.unexplained() < kWell) return right;
   const TurnFit left = refineTurnFit(steps, gyro, bestOnGrid(steps, gyro, R_sensor_imu, true));
   // Where a third axis hardly turns both fit alike, and the axes are taken to be right-handed.
   constexpr double kClearly = 0.5;
