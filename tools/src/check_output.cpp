@@ -34,10 +34,14 @@ std::string lineOf(const MotionComparison& motion) {
   if (!motion.fits) return line + "they do not fit\n";
   line += formatted("clock %+.2f ms (sigma %.2f), gyroscope's scale %.3f", 1e3 * motion.offset_s,
                     1e3 * motion.offset_sigma_s, motion.gyro_scale);
-  if (motion.R_body_sensor.determinant() > 0) {
+  if (motion.R_body_sensor.determinant() < 0) {
+    line += ", axes left-handed";
+  } else if (motion.rotation_error_sigma_rad > 0) {
     line += formatted(", axes off by %.2f deg (sigma %.2f)",
                       motion.rotation_error_body.norm() / kDegree,
                       motion.rotation_error_sigma_rad / kDegree);
+  } else {
+    line += ", axes known too badly to tell";
   }
   return line + formatted("; turning %.2f deg a step, unexplained as given %.2f, at best %.2f\n",
                           motion.turn_rms_rad / kDegree, motion.configured_rms_rad / kDegree,
