@@ -70,7 +70,7 @@ struct DataChecks::Impl {
         odometry("odometry", settings.odometry_label),
         motion(settings) {}
 
-  void readOdometryFile();
+  void addOdometryFile();
   Stream& streamOf(StreamKind kind, const CObservation& observation);
   void addImu(const CObservationIMU& observation, TimeNs t_ns);
   void addOdometry(const CObservation& observation, TimeNs t_ns);
@@ -83,14 +83,16 @@ struct DataChecks::Impl {
   StreamChoice lidar, imu, odometry;
   std::deque<Stream> streams;  // in the order of their first observation
   MotionCheck motion;
+  std::vector<StampedPose> odometry_file;
   LogHistogram ranges;
   LidarFrame recycled;
   std::vector<MotionComparison> motions;
   Findings findings;
 };
 
-void DataChecks::Impl::readOdometryFile() {
-  for (const StampedPose& stamped : readTum(settings.odometry_file)) {
+// At the end: the recording's first stamp, not the file's, tells which time is looked at.
+void DataChecks::Impl::addOdometryFile() {
+  for (const StampedPose& stamped : odometry_file) {
     motion.addOdometry(settings.odometry_file, {stamped.t_ns, stamped.pose, std::nullopt});
   }
 }
@@ -175,7 +177,7 @@ void DataChecks::Impl::judgeMotions() {
 
 DataChecks::DataChecks(const FrontendSettings& settings, Extent extent)
     : impl_(std::make_unique<Impl>(settings, extent)) {
-  if (!settings.odometry_file.empty()) impl_->readOdometryFile();
+  if (!settings.odometry_file.empty()) impl_->odometry_file = readTum(settings.odometry_file);
 }
 DataChecks::~DataChecks() = default;
 
@@ -194,6 +196,7 @@ void DataChecks::finish() {
   for (Stream& stream : impl_->streams) {
     stream.each([&](const DataCheck& check) { check.report(impl_->findings); });
   }
+  impl_->addOdometryFile();
   impl_->judgeMotions();
   std::stable_partition(impl_->findings.begin(), impl_->findings.end(),
                         [](const Finding& f) { return f.severity != Severity::kNote; });

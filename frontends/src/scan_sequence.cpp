@@ -64,7 +64,7 @@ double ageS(const LidarFrame& frame, std::size_t i) {
   return frame.dt_ns.empty() ? 0 : 1e-9 * static_cast<double>(frame.duration_ns - frame.dt_ns[i]);
 }
 
-// A voxel size that leaves at most the points wanted, of those that grow by a quarter.
+// As dense as the most points allow.
 std::vector<std::uint32_t> thinned(const std::vector<Point3f>& points) {
   VoxelFilter filter;
   for (double voxel_m = 0.1;; voxel_m *= 1.5) {
