@@ -46,7 +46,7 @@ std::string anglesText(const Mat3& R) {
 }  // namespace
 
 void judgeExtrinsics(const MotionComparison& motion, Findings& findings) {
-  constexpr double kTolerance = 1.5 * kDegree, kSigmas = 6;
+  constexpr double kTolerance = 1.0 * kDegree, kSigmas = 6;
   if (!motion.fits) return;
   if (motion.R_body_sensor.determinant() < 0) return tellLeftHanded(motion, findings);
   const double off = motion.rotation_error_body.norm();
