@@ -64,7 +64,9 @@ void EventSource::finish(EventBatch& batch) {
   StageScope stage(&stopwatch_, "checks");
   checks_.finish();
   for (const Finding& finding : checks_.findings()) {
-    if (finding.severity != Severity::kNote) batch.notes.push_back(finding.sentence);
+    if (finding.severity == Severity::kNote) continue;
+    findings_.push_back(finding);
+    batch.notes.push_back(finding.sentence);
   }
 }
 

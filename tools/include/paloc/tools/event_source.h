@@ -40,7 +40,7 @@ class EventSource {
   /// What follows is for after the end.
   RunEnd runEnd() const;
   UnusedCounts unused() const;
-  const Findings& findings() const { return checks_.findings(); }
+  const Findings& findings() const { return findings_; }
   double recordingSeconds() const;
   const std::vector<StageTimes>& stages() const { return stopwatch_.stages(); }
 
@@ -55,6 +55,7 @@ class EventSource {
   RawlogStream log_;
   OdometryFrontend::Ptr frontend_;
   DataChecks checks_;
+  Findings findings_;  // without notes: the front-end has its own
   StageStopwatch stopwatch_;
   std::optional<TimeNs> first_ns_;
   TimeNs last_ns_ = 0;
