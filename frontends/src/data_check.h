@@ -7,7 +7,6 @@
 #include "paloc/frontends/finding.h"
 #include "paloc/frontends/frontend_settings.h"
 #include "paloc/frontends/lidar_frame.h"
-#include "paloc/frontends/odometry_reader.h"
 
 namespace paloc {
 
@@ -22,7 +21,6 @@ class DataCheck {
   virtual void addRefused(TimeNs /*t_ns*/, const std::string& /*reason*/) {}
   virtual void addImu(const ImuSample& /*sample*/) {}
   virtual void addScan(const LidarFrame& /*frame*/) {}
-  virtual void addOdometry(const OdometryPose& /*pose*/) {}
 
   virtual void report(Findings& findings) const = 0;
 };

@@ -125,7 +125,6 @@ void DataChecks::Impl::addOdometry(const CObservation& observation, TimeNs t_ns)
   std::string refusal;
   const auto pose = decodeOdometry(observation, refusal);
   if (!pose) return stream.each([&](DataCheck& check) { check.addRefused(t_ns, refusal); });
-  stream.each([&](DataCheck& check) { check.addOdometry(*pose); });
   if (!settings.odometry_file.empty()) return;  // it is used instead
   if (odometry.takes(stream.class_name, observation.sensorLabel)) {
     motion.addOdometry(observation.sensorLabel, *pose);

@@ -19,7 +19,6 @@ class ScanSequence {
   /// Takes a scan; false, and it is not taken, if it does not follow those before (a gap, the
   /// sequence is full) or holds too little.
   bool add(const LidarFrame& frame);
-  std::size_t size() const { return scans_.size(); }
 
   /// Registers the scans, each moved to its end at even speed. False if they do not fit together.
   bool track();
