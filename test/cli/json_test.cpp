@@ -91,6 +91,7 @@ std::map<std::string, Words> soundCalls(const test::TempDir& dir) {
   const std::string truth = dir / "demo/truth.tum";
   return {
       {"info", {"info", log}},
+      {"check", {"check", log}},
       {"replay",
        {"replay", log, "--map", dir / "demo/map.ply", "--init-tum", truth, "-o", dir / "result"}},
       {"import clouds",

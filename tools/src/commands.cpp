@@ -11,6 +11,7 @@ std::vector<std::unique_ptr<Command>> allCommands() {
   commands.push_back(makeSynthCommand());
   commands.push_back(makeImportCommand());
   commands.push_back(makeInfoCommand());
+  commands.push_back(makeCheckCommand());
   commands.push_back(makeMapCommand());
   return commands;
 }

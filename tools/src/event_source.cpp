@@ -18,7 +18,8 @@ EventSource::EventSource(const ReplayOptions& options, const FrontendSettings& s
     : options_(options),
       interrupt_(interrupt),
       log_(options.log_file),
-      frontend_(OdometryFrontend::create(options.frontend, settings)) {}
+      frontend_(OdometryFrontend::create(options.frontend, settings)),
+      checks_(settings, DataChecks::Extent::kCheap) {}
 
 bool EventSource::wanted(const mrpt::obs::CObservation& observation) {
   const TimeNs t_ns = fromMrptTime(observation.timestamp);
@@ -46,9 +47,27 @@ bool EventSource::feedOne() {
   if (!observation) return false;
   ++read_;
   if (!wanted(*observation)) return true;
-  StageScope stage(&stopwatch_, "frontend");
-  frontend_->add(*observation);
+  {
+    StageScope stage(&stopwatch_, "frontend");
+    frontend_->add(*observation);
+  }
+  StageScope stage(&stopwatch_, "checks");
+  checks_.add(*observation);
   return true;
+}
+
+void EventSource::finish(EventBatch& batch) {
+  {
+    StageScope stage(&stopwatch_, "frontend");
+    frontend_->finish();
+  }
+  StageScope stage(&stopwatch_, "checks");
+  checks_.finish();
+  for (const Finding& finding : checks_.findings()) {
+    if (finding.severity == Severity::kNote) continue;
+    findings_.push_back(finding);
+    batch.notes.push_back(finding.sentence);
+  }
 }
 
 void EventSource::drainInto(EventBatch& batch) {
@@ -63,12 +82,10 @@ std::optional<EventBatch> EventSource::next() {
   EventBatch batch;
   while (!ended_ && batch.frames == 0 && batch.notes.empty() && batch.events.size() < kMostEvents) {
     ended_ = !feedOne();
-    if (ended_) {
-      StageScope stage(&stopwatch_, "frontend");
-      frontend_->finish();
-    }
+    if (ended_) finish(batch);
     drainInto(batch);
-    batch.notes = frontend_->takeNotes();
+    const std::vector<std::string> notes = frontend_->takeNotes();
+    batch.notes.insert(batch.notes.begin(), notes.begin(), notes.end());
   }
   if (batch.events.empty() && batch.notes.empty()) return {};
   batch.share = log_.progress();

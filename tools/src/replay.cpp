@@ -154,6 +154,7 @@ void Replay::finish() {
   outcome_.result = generator_->finish(options_.online ? Smoothing::kOnline : Smoothing::kBatch);
   outcome_.unused.merge(source_.unused());
   outcome_.unused.merge(generator_->unused());
+  outcome_.findings = source_.findings();
   outcome_.end = source_.runEnd();
   outcome_.recording_s = source_.recordingSeconds();
   {

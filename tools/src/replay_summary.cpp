@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "paloc/core/text.h"
+#include "paloc/tools/finding_json.h"
 #include "paloc/tools/peak_memory.h"
 #include "paloc/tools/report_summary.h"
 #include "paloc/tools/verdict.h"
@@ -109,6 +110,7 @@ nlohmann::ordered_json summaryJson(const ReplayOutcome& outcome) {
         {"not_kept", result.rematched.not_kept}}},
       {"unused", unused},
       {"notes", outcome.notes},
+      {"findings", jsonOf(outcome.findings)},
       {"direction_changes", outcome.direction_changes},
       {"problems", outcome.end.problems},
       {"damage", outcome.end.damage},

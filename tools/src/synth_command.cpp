@@ -35,7 +35,7 @@ class SynthCommand : public Command {
   CLI::App* command_ = nullptr;
   synth::SynthSettings settings_;
   std::string map_, trajectory_, folder_, extrinsic_;
-  std::vector<std::string> changes_;
+  std::vector<std::string> changes_, faults_;
   double range_noise_m_ = -1;
   std::vector<double> blackout_s_;
   bool json_ = false;
@@ -74,8 +74,12 @@ void SynthCommand::registerOn(CLI::App& app) {
       "each\n"
       "scan), truth_imu.csv (with velocity and biases, at IMU rate) and synth.json (all parameters "
       "and\n"
-      "frames); with --change also changes.json, which tells where.\n\nExample: paloc synth "
-      "--scene building --sensor os1-128 --duration 60 -o demo");
+      "frames); with --change also changes.json, which tells where.\n\nFaults, with the values "
+      "that they have unless told otherwise (times count from the first scan;\n"
+      "the truth stays that of the motion):\n" +
+      synth::faultHelp() +
+      "\nExample: paloc synth --scene building --sensor os1-128 --duration 60 -o demo\n"
+      "         paloc synth --fault imu-g --fault clock-offset=-0.005 -o faulty");
 }
 
 void SynthCommand::addModelOptions() {
@@ -103,6 +107,8 @@ void SynthCommand::addModelOptions() {
                        "what differs from the surveyed place (several may be given; moved-wall=0.3 "
                        "tells metres, walking-people=4 how many): " +
                            joined(synth::changeNames()));
+  command_->add_option("--fault", faults_,
+                       "what is wrong with the recording (several may be given); see below");
   command_
       ->add_option("--blackout", blackout_s_,
                    "from, to (s): nothing is recorded, while the platform goes on")
@@ -127,6 +133,7 @@ ExitCode SynthCommand::run() {
   if (!extrinsic_.empty()) {
     settings_.T_body_lidar = fromMrpt(parsePose(extrinsic_, "--T-body-lidar"));
   }
+  for (const std::string& fault : faults_) settings_.faults.push_back(synth::parseFault(fault));
   for (const std::string& change : changes_) {
     settings_.changes.push_back(synth::parseChange(change));
   }

@@ -17,6 +17,7 @@
 #include "paloc/tools/motion_observations.h"
 #include "paloc/tools/result_folder.h"
 #include "paloc/tools/synth_changed_scene.h"
+#include "paloc/tools/synth_fault_injector.h"
 #include "paloc/tools/synth_map_scene.h"
 #include "paloc/tools/synth_scene.h"
 #include "paloc/tools/synth_sensor.h"
@@ -36,6 +37,7 @@ class OrderedRecording {
   OrderedRecording(const std::filesystem::path& file, const Timeline& timeline,
                    const SynthSettings& settings)
       : feed_(timeline),
+        faults_(settings.faults, timeline.first_scan_ns),
         writer_(file, settings.gzip ? RawlogWriter::Compression::kGzip
                                     : RawlogWriter::Compression::kNone) {
     if (!settings.blackout_s) return;
@@ -58,10 +60,12 @@ class OrderedRecording {
   }
   void write(const mrpt::obs::CObservation& observation) {
     const TimeNs t_ns = fromMrptTime(observation.timestamp);
-    if (t_ns < dark_from_ns_ || t_ns >= dark_to_ns_) writer_.write(observation);
+    if (t_ns >= dark_from_ns_ && t_ns < dark_to_ns_) return;
+    faults_.pass(observation, [this](const auto& spoiled) { writer_.write(spoiled); });
   }
 
   TimelineFeed feed_;
+  FaultInjector faults_;
   RawlogWriter writer_;
   TimeNs dark_from_ns_ = 0, dark_to_ns_ = 0;
 };

@@ -101,6 +101,9 @@ void writeDescription(const std::filesystem::path& file, const SynthSettings& se
                    {"surface_bias_sigma_m", survey.surface_bias_m},
                    {"angular_step_deg", survey.angular_step_deg}};
   }
+  for (const Fault& fault : settings.faults) {
+    json["faults"].push_back({{"fault", toString(fault.kind)}, {"values", fault.values}});
+  }
   for (const Change& change : settings.changes) {
     json["changes"].push_back({{"change", toString(change.kind)}, {"values", change.values}});
   }

@@ -8,6 +8,7 @@ namespace paloc {
 
 // One maker a sub-command; the class itself stays in its source file.
 std::unique_ptr<Command> makeBenchCommand();
+std::unique_ptr<Command> makeCheckCommand();
 std::unique_ptr<Command> makeConfigCommand();
 std::unique_ptr<Command> makeEvalCommand();
 std::unique_ptr<Command> makeImportCommand();

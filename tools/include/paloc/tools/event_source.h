@@ -6,6 +6,7 @@
 #include <thread>
 #include <vector>
 
+#include "paloc/frontends/data_checks.h"
 #include "paloc/frontends/odometry_frontend.h"
 #include "paloc/frontends/rawlog_stream.h"
 #include "paloc/tools/bounded_queue.h"
@@ -23,7 +24,8 @@ struct EventBatch {
 };
 
 /// The first half of a replay: recording and front-end, up to the events that the estimator takes.
-/// Knows nothing of the map. The same batches come whether it runs ahead in a thread or not.
+/// Knows nothing of the map. Checks the data on the way, as far as that is cheap: what is found are
+/// notes of the last batch. The same batches come whether it runs ahead in a thread or not.
 class EventSource {
  public:
   /// Throws IoError or ConfigError where recording or front-end are not there.
@@ -38,6 +40,7 @@ class EventSource {
   /// What follows is for after the end.
   RunEnd runEnd() const;
   UnusedCounts unused() const;
+  const Findings& findings() const { return findings_; }
   double recordingSeconds() const;
   const std::vector<StageTimes>& stages() const { return stopwatch_.stages(); }
 
@@ -45,11 +48,14 @@ class EventSource {
   bool wanted(const mrpt::obs::CObservation& observation);
   bool feedOne();
   void drainInto(EventBatch& batch);
+  void finish(EventBatch& batch);
 
   const ReplayOptions& options_;
   const std::atomic<bool>& interrupt_;
   RawlogStream log_;
   OdometryFrontend::Ptr frontend_;
+  DataChecks checks_;
+  Findings findings_;  // without notes: the front-end has its own
   StageStopwatch stopwatch_;
   std::optional<TimeNs> first_ns_;
   TimeNs last_ns_ = 0;

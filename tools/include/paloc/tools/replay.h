@@ -12,6 +12,7 @@
 #include "paloc/core/start_guess.h"
 #include "paloc/core/trajectory.h"
 #include "paloc/core/unused_counts.h"
+#include "paloc/frontends/finding.h"
 #include "paloc/map/point_cloud.h"
 #include "paloc/tools/place_changes.h"
 #include "paloc/tools/stage_stopwatch.h"
@@ -51,6 +52,7 @@ struct ReplayOutcome {
   Result result;
   UnusedCounts unused;
   std::vector<std::string> notes;  ///< sentences for the user, in the order they came up
+  Findings findings;               ///< of the checks of the data; the notes have their sentences
   /// When a direction was lost and came back (see DirectionWatch), as matched during the run.
   std::vector<std::string> direction_changes;
   RunEnd end;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "paloc/tools/synth_change.h"
+#include "paloc/tools/synth_fault.h"
 #include "paloc/tools/synth_imu.h"
 #include "paloc/tools/synth_odometry.h"
 #include "paloc/tools/synth_survey.h"
@@ -35,6 +36,7 @@ struct SynthSettings {
   SurveyModel survey;
   /// From, to: nothing was recorded (s, after the first scan's start), while the platform went on.
   std::optional<std::array<double, 2>> blackout_s;
+  std::vector<Fault> faults;     ///< of the recording, in this order
   std::vector<Change> changes;   ///< between the survey and the recording, in this order
   std::filesystem::path folder;  ///< made if it does not exist
   bool gzip = false;
