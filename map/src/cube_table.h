@@ -46,7 +46,7 @@ class CubeTable {
   /// begin with `lowest`: to the one below where that is lower than its own, else to the one above.
   std::array<double, 3> distancesSq(const Point3f& p, const Cube& lowest, const Cube& own) const {
     const std::array<float, 3> at{p.x, p.y, p.z};
-    std::array<double, 3> distances_sq;
+    std::array<double, 3> distances_sq{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double begin = low_[axis] + edge_m_ * own[axis];
       const double inside = static_cast<double>(at[axis]) - begin;

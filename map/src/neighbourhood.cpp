@@ -31,7 +31,8 @@ std::size_t Neighbourhood::countWithin(float radius_sq) const {
   for (std::size_t at = 0; at < points_.size(); at += 4) {
     count -= load4(distances_sq_.data() + at) <= radius_sq;  // a lane that holds is -1
   }
-  return static_cast<std::size_t>(count[0] + count[1] + count[2] + count[3]);
+  const int sum = count[0] + count[1] + count[2] + count[3];
+  return static_cast<std::size_t>(sum);
 }
 
 // On a surface the number of points grows with the square of the radius.

@@ -120,9 +120,10 @@ PlaneFit::Band PlaneFit::ownFace(const NearPoints& points, const PlaneMoments& m
 }
 
 MapPlane PlaneFit::operator()(const NearPoints& points, float radius_sq) {
-  // Unlike any comparison, this also holds for none.
-  const auto any = [](const Float4& x, const Float4&, const Float4&) { return x == x; };
-  return (*this)(points, radius_sq, PlaneMoments(points.sumsWhere(any)));
+  const auto within = [radius_sq](const Float4& x, const Float4& y, const Float4& z) {
+    return x * x + y * y + z * z <= radius_sq;  // not what fills the last lanes
+  };
+  return (*this)(points, radius_sq, PlaneMoments(points.sumsWhere(within)));
 }
 
 MapPlane PlaneFit::operator()(const NearPoints& points, float radius_sq, const PlaneMoments& all) {

@@ -134,7 +134,7 @@ std::size_t PointIndex::bytes() const {
 
 PointIndex::Box PointIndex::box() const {
   const BoxGroup& top = levels_.back()[0];
-  BoxGroup whole;
+  BoxGroup whole{};
   enclose(top, whole, 0);
   return {{whole.low[0][0], whole.low[1][0], whole.low[2][0]},
           {whole.high[0][0], whole.high[1][0], whole.high[2][0]}};

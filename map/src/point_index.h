@@ -163,7 +163,7 @@ PointIndex::Found PointIndex::nearest(const Point3f& query, float nearer_than_sq
         nearBoxes(levels_[step.level][step.group], query, best.distance_sq, distances_sq);
     if (bits == 0) continue;
     // Into the nearest first: by the time the others come up, few are near enough.
-    std::uint32_t nearest = static_cast<std::uint32_t>(std::countr_zero(bits));
+    auto nearest = static_cast<std::uint32_t>(std::countr_zero(bits));
     for (unsigned rest = bits & (bits - 1); rest != 0; rest &= rest - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(rest));
       nearest = distances_sq[lane] < distances_sq[nearest] ? lane : nearest;

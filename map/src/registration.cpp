@@ -172,7 +172,7 @@ void Registration::associate(const Pose& pose, double gate, int iteration, std::
   const double research_sq = research * research;
   forEachChunk(arena_, (points_.points.size() + stride - 1) / stride, kChunk,
                [&](std::size_t, std::size_t begin, std::size_t end) {
-                 std::array<std::uint32_t, kChunk> moved;
+                 std::array<std::uint32_t, kChunk> moved{};
                  std::size_t count = 0;
                  for (std::size_t i = begin * stride; i < points_.points.size() && i < end * stride;
                       i += stride) {
