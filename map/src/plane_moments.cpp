@@ -80,8 +80,8 @@ MapPlane planeOf(const PlaneMoments& m, const PlaneFitLimits& limits) {
   const double thickness = std::sqrt(m.variances[0]);
   const double width = std::sqrt(m.variances[1]), length = std::sqrt(m.variances[2]);
   const double offset = m.normal.dot(m.centroid);
-  if (thickness > limits.max_thickness_m || thickness > kMaxThicknessToWidth * width ||
-      width < kMinWidthToLength * length ||
+  if (!(width > 0) || thickness > limits.max_thickness_m ||
+      thickness > kMaxThicknessToWidth * width || width < kMinWidthToLength * length ||
       std::abs(offset) > std::max(kMaxOwnOffset * thickness, limits.clean_thickness_m)) {
     return plane;
   }

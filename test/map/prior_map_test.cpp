@@ -104,6 +104,20 @@ INSTANTIATE_TEST_SUITE_P(Maps, NearestNearTheMap,
                                          NearMap{{3000, -2500, 40}, 0.1F, 0.05},
                                          NearMap{{12, 30, 1}, 1.0F, 0.05}));
 
+TEST(PriorMap, PointsInOnePlaceMakeNoPlane) {
+  PointCloud cloud;
+  cloud.points.assign(500, {1, 2, 3});
+  MapSettings settings;
+  settings.voxel_m = 0;
+  try {
+    PriorMap::build(cloud, settings, "heap");
+    FAIL() << "a map was built";
+  } catch (const IoError& error) {
+    EXPECT_STREQ(error.what(),
+                 "heap holds no surface: of its 500 points (thinned), 0 lie on a plane");
+  }
+}
+
 TEST(PriorMap, PlanesLieOnTheWalls) {
   const test::BoxWorld world = test::emptyRoom();
   const auto map = PriorMap::build(test::sampleMap(world, 0.1, 0.003, 1), {});
