@@ -16,6 +16,7 @@ class Extreme {
     const double step = std::abs(value - last_);
     if (step > 0) bit_ = std::min(bit_, step);
     last_ = value;
+    least_ = std::min(least_, value);
     if (value > greatest_) rise(value, t_ns);
     run_ = value == greatest_ ? run_ + 1 : 0;
     if (value == greatest_) {
@@ -41,7 +42,8 @@ class Extreme {
  private:
   static constexpr double kApart = 0.2;  // s: another swing of the signal
 
-  double band() const { return std::max(0.03 * std::abs(greatest_), 3.5 * bit_); }
+  // Of the swing, not of the value: gravity is no part of it.
+  double band() const { return std::max(0.02 * (greatest_ - least_), 3.5 * bit_); }
 
   void rise(double value, TimeNs t_ns) {
     const bool still_near = value - greatest_ < band();
@@ -53,7 +55,7 @@ class Extreme {
     run_ = runs_ = 0;
   }
 
-  double greatest_ = -INFINITY, last_ = NAN;
+  double greatest_ = -INFINITY, least_ = INFINITY, last_ = NAN;
   double bit_ = INFINITY;  // the smallest step seen: how coarse the signal is
   TimeNs first_ns_ = 0, last_run_ns_ = INT64_MIN / 2;
   std::uint64_t times_ = 0, near_ = 0;  // at the greatest value, just below

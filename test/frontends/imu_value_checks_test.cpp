@@ -65,6 +65,23 @@ TEST(SaturationCheck, FindsAClippedAxis) {
   EXPECT_EQ(acc.wrong(), "saturation");
 }
 
+// Most of the swing lies near to a limit that gravity nearly reaches alone.
+TEST(SaturationCheck, FindsALimitJustAboveGravity) {
+  std::mt19937 random(2);
+  std::normal_distribution<double> noise(0, 0.02);
+  Observations imu = imuStream(4000);
+  double t_s = 0;
+  for (const auto& sample : imu) {
+    const double bob = 0.8 * std::sin(11 * t_s) * std::sin(0.3 * t_s);
+    imuOf(sample).set(mrpt::obs::IMU_Z_ACC, std::min(9.81 + bob + noise(random), 10.4));
+    t_s += 0.005;
+  }
+  const Checked checked = check(imu);
+  EXPECT_EQ(checked.wrong(), "saturation");
+  EXPECT_NE(checked.sentence("saturation").find("accelerometer of the IMU 'imu' (z)"),
+            std::string::npos);
+}
+
 TEST(SaturationCheck, CoarseReadingsAreNotClipped) {
   for (const double bit : {0.001, 0.01, 0.05}) {
     const Checked checked =
