@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "neighbourhood.h"
 #include "parallel_chunks.h"
