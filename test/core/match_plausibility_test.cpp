@@ -67,6 +67,15 @@ TEST(MatchPlausibility, PoorMatchesInTheWrongPlaceAreNeverBelieved) {
   EXPECT_EQ(walk.believed(20, Vec3(0, 0.06, 0)), 20) << "the map is right again";
 }
 
+// The same, entered slowly: a good part of the scan still matches, and the usual has become worse.
+TEST(MatchPlausibility, MatchesThatHaveBecomeAFifthWorseAreNotBelievedForAgreeing) {
+  Walk walk;
+  ASSERT_EQ(walk.believed(60, Vec3::Zero(), 0.9), 60);
+  ASSERT_EQ(walk.believed(10, Vec3::Zero(), 0.75), 10);
+  walk.setSigma(0.02);
+  EXPECT_EQ(walk.believed(100, Vec3(0.11, -0.12, 0), 0.72), 0);
+}
+
 // As good as ever, and of one mind: then it is the prediction that is wrong.
 TEST(MatchPlausibility, GoodMatchesThatAgreeAreBelievedInTheEnd) {
   Walk walk;
