@@ -13,12 +13,6 @@ constexpr double kShortestOdometryStep = 0.09;  // s: shorter ones are mostly no
 constexpr double kLeastTurn = 0.004;            // rad in a step of 0.1 s, root mean square
 constexpr double kMostUnexplained = 0.35;       // of the square turning
 
-double rmsOf(const std::vector<TurnStep>& steps) {
-  double sum = 0;
-  for (const TurnStep& step : steps) sum += step.turn.squaredNorm();
-  return steps.empty() ? 0 : std::sqrt(sum / static_cast<double>(steps.size()));
-}
-
 // The part of the turn along directions that are known to a third of a degree, or to be far off.
 void setRotationError(const TurnFit& fit, MotionComparison& motion) {
   constexpr double kKnown = 0.006, kFarSigmas = 6;  // rad
@@ -123,7 +117,7 @@ void MotionCheck::closeSequence() {
   if (!sequence.track()) return;
   std::vector<TurnStep> steps;
   sequence.appendSteps(steps);
-  if (rmsOf(steps) > kLeastTurn) sequences_.push_back(std::move(sequence));
+  if (turnRms(steps) > kLeastTurn) sequences_.push_back(std::move(sequence));
 }
 
 std::optional<MotionComparison> MotionCheck::compareOdometry() const {
@@ -132,7 +126,7 @@ std::optional<MotionComparison> MotionCheck::compareOdometry() const {
   motion.label = odometry_label_;
   motion.of_odometry = true;
   motion.imu_label = imu_label_;
-  motion.turns = rmsOf(odometry_steps_) > kLeastTurn;
+  motion.turns = turnRms(odometry_steps_) > kLeastTurn;
   if (!motion.turns) return motion;
   const auto fit = findTurnFit(odometry_steps_, gyro_, Mat3::Identity());
   if (!fit) return std::nullopt;

@@ -217,13 +217,13 @@ std::vector<Row> whitened(std::vector<Row> rows, double theta) {
   return rows;
 }
 
-double rms(const std::vector<TurnStep>& steps) {
+}  // namespace
+
+double turnRms(const std::vector<TurnStep>& steps) {
   double sum = 0;
   for (const TurnStep& step : steps) sum += step.turn.squaredNorm();
   return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, steps.size())));
 }
-
-}  // namespace
 
 std::optional<TurnFit> findTurnFit(const std::vector<TurnStep>& steps, const GyroTrack& gyro,
                                    const Mat3& R_sensor_imu) {
@@ -243,7 +243,7 @@ std::optional<TurnFit> findTurnFit(const std::vector<TurnStep>& steps, const Gyr
 
 TurnFit refineTurnFit(const std::vector<TurnStep>& steps, const GyroTrack& gyro, TurnFit fit,
                       int rounds) {
-  fit.turn_rms_rad = rms(steps);
+  fit.turn_rms_rad = turnRms(steps);
   for (int round = 0; round < rounds; ++round) {
     const GyroTrack in_sensor = gyro.transformed(fit.scale * fit.R_sensor_imu);
     const std::vector<Row> rows = rowsOf(steps, in_sensor, fit.offset_s);

@@ -50,6 +50,9 @@ std::optional<TurnFit> findTurnFit(const std::vector<TurnStep>& steps, const Gyr
 TurnFit refineTurnFit(const std::vector<TurnStep>& steps, const GyroTrack& gyro, TurnFit fit,
                       int rounds = 5);
 
+/// Root mean square of the turns (rad); 0 of none.
+double turnRms(const std::vector<TurnStep>& steps);
+
 /// Mean square of what a fit leaves of the turns as it stands (rad2, 3 x 3, in the sensor's frame),
 /// outliers and all.
 Mat3 turnResidual(const std::vector<TurnStep>& steps, const GyroTrack& gyro, const TurnFit& fit);

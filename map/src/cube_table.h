@@ -87,12 +87,6 @@ class CubeTable {
   std::vector<Run> runsIn(const PointBlock* blocks, std::size_t begin, std::size_t end) const;
   void fill(const std::vector<std::vector<Run>>& parts);
 
-  static Point3f pointAt(const PointBlock* blocks, std::size_t i) {
-    const PointBlock& block = blocks[i / PointBlock::kPoints];
-    const std::size_t lane = i % PointBlock::kPoints;
-    return {block.x[lane], block.y[lane], block.z[lane]};
-  }
-
   double edge_m_ = 1, inverse_ = 1;
   std::array<double, 3> low_{};
   std::size_t mask_ = 0;

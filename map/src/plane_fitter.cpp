@@ -9,6 +9,7 @@
 #include "neighbourhood.h"
 #include "parallel_chunks.h"
 #include "plane_fit.h"
+#include "point_vector.h"
 #include "wall_faces.h"
 
 namespace paloc {
@@ -29,8 +30,6 @@ constexpr float kKnownOffset = 2.5F;
 constexpr float kRadiusMargin = 1.1F;
 
 using Vec3f = Eigen::Vector3f;
-
-Vec3f toVec(const Point3f& p) { return {p.x, p.y, p.z}; }
 
 /// Fits the planes of one block after the other.
 class BlockFitter {
@@ -160,9 +159,9 @@ void BlockFitter::share(std::size_t from, float radius_sq,
 void BlockFitter::fit(std::size_t block, PackedPlane* planes) {
   const std::size_t first = block * PointBlock::kPoints;
   count_ = std::min(PointBlock::kPoints, index_.size() - first);
-  Vec3f low = toVec(index_.point(static_cast<std::uint32_t>(first))), high = low;
+  Vec3f low = toVec3f(index_.point(static_cast<std::uint32_t>(first))), high = low;
   for (std::size_t i = 0; i < count_; ++i) {
-    points_[i] = toVec(index_.point(static_cast<std::uint32_t>(first + i)));
+    points_[i] = toVec3f(index_.point(static_cast<std::uint32_t>(first + i)));
     low = low.cwiseMin(points_[i]), high = high.cwiseMax(points_[i]);
   }
   const Vec3f centre = low + (high - low) / 2;

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "paloc/core/types.h"
+
 namespace paloc {
 
 /// Eight points that follow each other on the Hilbert curve, their coordinates side by side. What
@@ -12,5 +14,12 @@ struct PointBlock {
   float x[kPoints], y[kPoints], z[kPoints];
 };
 static_assert(sizeof(PointBlock) == 96);
+
+/// The `i`-th point of many blocks.
+inline Point3f pointAt(const PointBlock* blocks, std::size_t i) {
+  const PointBlock& block = blocks[i / PointBlock::kPoints];
+  const std::size_t lane = i % PointBlock::kPoints;
+  return {block.x[lane], block.y[lane], block.z[lane]};
+}
 
 }  // namespace paloc

@@ -47,11 +47,7 @@ class PointIndex {
   };
   Box box() const;  ///< about all points; there must be one
 
-  Point3f point(std::uint32_t index) const {
-    const PointBlock& block = blocks_[index / PointBlock::kPoints];
-    const std::size_t lane = index % PointBlock::kPoints;
-    return {block.x[lane], block.y[lane], block.z[lane]};
-  }
+  Point3f point(std::uint32_t index) const { return pointAt(blocks_, index); }
 
   /// Of a point in one of its blocks.
   std::uint32_t indexOf(const PointBlock& block, std::size_t lane) const {

@@ -17,6 +17,7 @@
 #include "plane_fitter.h"
 #include "plane_store.h"
 #include "point_index.h"
+#include "point_vector.h"
 
 namespace paloc {
 namespace {
@@ -178,8 +179,6 @@ PriorMap::Nearest nearestOf(const PointIndex::Found& found) {
   return {found.index, found.distance_sq};
 }
 
-Eigen::Vector3f toVec(const Point3f& p) { return {p.x, p.y, p.z}; }
-
 }  // namespace
 
 PriorMap::Nearest PriorMap::nearest(const Point3f& local, float max_distance_m) const {
@@ -194,7 +193,7 @@ void PriorMap::nearestSeenFrom(const Point3f& viewer, float max_distance_m,
   const float max_distance_sq = max_distance_m * max_distance_m;
   const auto canBeSeen = [&](std::uint32_t i) {
     return !planes[i].oriented() ||
-           planes[i].normal().dot(toVec(viewer) - toVec(index.point(i))) > 0;
+           planes[i].normal().dot(toVec3f(viewer) - toVec3f(index.point(i))) > 0;
   };
   constexpr std::size_t kGroup = 16;
   for (std::size_t begin = 0; begin < queries.size(); begin += kGroup) {
@@ -205,7 +204,7 @@ void PriorMap::nearestSeenFrom(const Point3f& viewer, float max_distance_m,
       const auto& [local, hint] = queries[i];
       PointIndex::Found bound{PointIndex::kNone, max_distance_sq};
       if (hint != kNoPoint) {
-        const float distance_sq = (toVec(index.point(hint)) - toVec(local)).squaredNorm();
+        const float distance_sq = (toVec3f(index.point(hint)) - toVec3f(local)).squaredNorm();
         if (distance_sq < bound.distance_sq) bound = {hint, distance_sq};
       }
       const PointIndex::Found nearer = index.nearest(local, bound.distance_sq);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "parallel_chunks.h"
+#include "point_vector.h"
 
 namespace paloc {
 namespace {
@@ -18,8 +19,6 @@ constexpr float kSameFaceM = 0.02F;
 constexpr int kAboutNeeded = 3;  // of four places about
 
 using Vec3f = Eigen::Vector3f;
-
-Vec3f toVec(const Point3f& p) { return {p.x, p.y, p.z}; }
 
 /// Looks for the other faces of the walls that planes may belong to. One object serves one thread.
 class OtherFace {
@@ -92,9 +91,9 @@ class OtherFace {
 enum class Turn : std::uint8_t { kNothing, kKeep, kTurn };
 
 float spacingOf(const PointIndex& index, std::size_t first, std::size_t count) {
-  Vec3f low = toVec(index.point(static_cast<std::uint32_t>(first))), high = low;
+  Vec3f low = toVec3f(index.point(static_cast<std::uint32_t>(first))), high = low;
   for (std::size_t i = 1; i < count; ++i) {
-    const Vec3f p = toVec(index.point(static_cast<std::uint32_t>(first + i)));
+    const Vec3f p = toVec3f(index.point(static_cast<std::uint32_t>(first + i)));
     low = low.cwiseMin(p), high = high.cwiseMax(p);
   }
   const float side = (high - low).norm() / std::sqrt(static_cast<float>(count));
@@ -113,7 +112,7 @@ std::vector<Face> facesIn(const PointIndex& index, const PlaneStore& planes, std
   std::vector<Face> faces;
   for (std::size_t i = first; i < first + count; ++i) {
     if (!planes[i].planar()) continue;
-    const Vec3f point = toVec(index.point(static_cast<std::uint32_t>(i)));
+    const Vec3f point = toVec3f(index.point(static_cast<std::uint32_t>(i)));
     const Vec3f normal = planes[i].normal();
     const auto face = std::find_if(faces.begin(), faces.end(), [&](const Face& known) {
       return std::abs(known.normal.dot(normal)) > kParallelCosine &&
@@ -136,7 +135,7 @@ void decide(const PointIndex& index, const PlaneStore& planes, std::size_t first
     if (face.points.size() < kLeastPoints) continue;
     // About a point in the middle of those of the face.
     const std::size_t middle = face.points[face.points.size() / 2];
-    const Vec3f point = toVec(index.point(static_cast<std::uint32_t>(middle)));
+    const Vec3f point = toVec3f(index.point(static_cast<std::uint32_t>(middle)));
     const float side = other.side(point, face.normal, spacing_m);
     if (side == 0) continue;
     for (const std::size_t i : face.points) {

@@ -15,7 +15,7 @@ constexpr const char* kRegistrationExample = R"(Example:
 
 Without --map it makes a building of furnished rooms, sampled to a map of each size, and OS1-128
 scans from random places in it; each scan is registered from 14 cm and 1 degree off the truth.
-A match is association, solution, information and spectrum; the filter is told apart.
+A match is all but the filter; information and spectrum run side by side on two threads.
 Exit codes: 0 done, 1 a scan was refused, 2 wrong usage, 3 a file cannot be read.)";
 
 class BenchRegistrationCommand : public Command {
