@@ -10,6 +10,7 @@ std::vector<std::unique_ptr<Command>> allCommands() {
   commands.push_back(makeReplayCommand());
   commands.push_back(makeSynthCommand());
   commands.push_back(makeImportCommand());
+  commands.push_back(makeExportCommand());
   commands.push_back(makeInfoCommand());
   commands.push_back(makeCheckCommand());
   commands.push_back(makeMapCommand());

@@ -124,17 +124,6 @@ void noteDeskewing(const std::vector<ScanEntry>& scans, const ScanConversion& ho
   }
 }
 
-void noteImu(const std::vector<ImuSample>& imu, ImportSummary& summary) {
-  double sum = 0;
-  for (const auto& sample : imu) sum += sample.acc_body.norm();
-  const double mean = sum / static_cast<double>(imu.size());
-  if (mean > 0.8 && mean < 1.25) {
-    summary.notes.emplace_back(
-        "the IMU's mean specific force is near 1: it looks like g, but is taken as "
-        "m/s2 as the column's name says");
-  }
-}
-
 }  // namespace
 
 ImportSummary importClouds(const ImportCloudsSettings& settings,
@@ -153,7 +142,7 @@ ImportSummary importClouds(const ImportCloudsSettings& settings,
       summary.notes.push_back(
           text("columns of the IMU's file that are not read: ", imu.other_columns));
     }
-    noteImu(parts.imu, summary);
+    noteImuUnit(parts.imu, summary);
   }
   decideReading(parts.scans, settings, how, summary);
   noteDeskewing(parts.scans, how, summary);

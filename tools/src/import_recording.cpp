@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "paloc/core/errors.h"
+#include "paloc/core/mrpt_pose.h"
 #include "paloc/core/text.h"
 #include "paloc/map/cloud_io.h"
 #include "paloc/tools/motion_observations.h"
@@ -53,11 +54,11 @@ std::vector<Entry> merged(const ImportParts& parts) {
 }
 
 // Writes one scan, or counts why not.
-void writeScan(const ScanEntry& entry, const ScanConversion& how, RawlogWriter& writer,
-               ImportSummary& summary) {
+void writeScan(const ImportParts& parts, const ScanEntry& entry, const ScanConversion& how,
+               RawlogWriter& writer, ImportSummary& summary) {
   PointCloud cloud;
   try {
-    cloud = loadCloud(entry.file);
+    cloud = parts.load ? parts.load(entry) : loadCloud(entry.file);
   } catch (const IoError& e) {
     constexpr std::uint64_t kTold = 3;
     const std::uint64_t count = ++summary.not_used["scans that cannot be read"];
@@ -80,7 +81,29 @@ void writeScan(const ScanEntry& entry, const ScanConversion& how, RawlogWriter& 
   }
 }
 
+mrpt::obs::CObservationRobotPose odometryObservation(const ImportParts& parts,
+                                                     const StampedPose& pose,
+                                                     const ImportOutput& output) {
+  auto observation = poseObservation(pose, output.odometry_label);
+  const auto covariance = parts.odometry_covariances.find(pose.t_ns);
+  if (covariance != parts.odometry_covariances.end()) {
+    observation.pose = toMrpt(pose.pose, covariance->second);
+  }
+  observation.sensorPose = toMrpt(parts.T_body_odometry);
+  return observation;
+}
+
 }  // namespace
+
+void noteImuUnit(const std::vector<ImuSample>& imu, ImportSummary& summary) {
+  double sum = 0;
+  for (const auto& sample : imu) sum += sample.acc_body.norm();
+  const double mean = sum / static_cast<double>(imu.size());
+  if (mean > 0.8 && mean < 1.25) {
+    summary.notes.emplace_back(
+        "the IMU's mean specific force is near 1: it looks like g, but is taken as m/s2");
+  }
+}
 
 void writeRecording(ImportParts parts, const ScanConversion& how, const ImportOutput& output,
                     const std::function<void(double)>& progress, ImportSummary& summary) {
@@ -95,10 +118,10 @@ void writeRecording(ImportParts parts, const ScanConversion& how, const ImportOu
         writer.write(imuObservation(parts.imu[entry.index], output.imu_label));
         break;
       case Kind::kOdometry:
-        writer.write(poseObservation(parts.odometry[entry.index], output.odometry_label));
+        writer.write(odometryObservation(parts, parts.odometry[entry.index], output));
         break;
       case Kind::kScan:
-        writeScan(parts.scans[entry.index], how, writer, summary);
+        writeScan(parts, parts.scans[entry.index], how, writer, summary);
         progress(static_cast<double>(done) / static_cast<double>(entries.size()));
         break;
     }

@@ -11,6 +11,7 @@ std::unique_ptr<Command> makeBenchCommand();
 std::unique_ptr<Command> makeCheckCommand();
 std::unique_ptr<Command> makeConfigCommand();
 std::unique_ptr<Command> makeEvalCommand();
+std::unique_ptr<Command> makeExportCommand();
 std::unique_ptr<Command> makeImportCommand();
 std::unique_ptr<Command> makeInfoCommand();
 std::unique_ptr<Command> makeMapCommand();

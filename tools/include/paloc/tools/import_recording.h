@@ -28,7 +28,11 @@ struct ImportOutput {
 struct ImportParts {
   std::vector<ScanEntry> scans;
   std::vector<ImuSample> imu;
-  std::vector<StampedPose> odometry;  ///< T_odom_body, cumulative
+  std::vector<StampedPose> odometry;            ///< T_odom_body, or that of its sensor; cumulative
+  std::map<TimeNs, Mat6> odometry_covariances;  ///< by stamp, tangent space of Pose; none: unknown
+  Pose T_body_odometry;                         ///< where the sensor of the odometry is
+  /// Loads a scan; if there is none, it is in the entry's file. Throws IoError.
+  std::function<PointCloud(const ScanEntry&)> load;
 };
 
 /// What came of an import.
@@ -49,6 +53,9 @@ struct ImportSummary {
 /// scan can be read, or the rawlog cannot be written.
 void writeRecording(ImportParts parts, const ScanConversion& how, const ImportOutput& output,
                     const std::function<void(double)>& progress, ImportSummary& summary);
+
+/// Notes it if forces look like g, not m/s2.
+void noteImuUnit(const std::vector<ImuSample>& imu, ImportSummary& summary);
 
 std::string tableOf(const ImportSummary& summary);
 nlohmann::json jsonOf(const ImportSummary& summary);

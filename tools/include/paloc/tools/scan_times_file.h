@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -15,6 +16,7 @@ struct ScanEntry {
   TimeNs stamp_ns = 0;               ///< of the first point
   std::optional<TimeNs> last_ns;     ///< of the last point, if stated
   std::optional<TimeNs> forward_ns;  ///< KITTI: when the sensor looked forward
+  std::size_t place = 0;             ///< ROS bag: where its message is
 };
 
 /// Reads a file of scan times: lines of `name stamp_first_s [stamp_last_s]`, names relative to
