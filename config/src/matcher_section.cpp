@@ -62,8 +62,6 @@ void addLocate(Rows& s) {
   s.number("locate_min_inlier_share", &S::locate_min_inlier_share, "", {0, 1},
            "Share of the matched points within 10 cm of their plane, below which a start is not "
            "believed.");
-  s.number("locate_max_blocked_share", &S::locate_max_blocked_share, "", {0, 1},
-           "Share of rays through a surface of the map, above which a start is not believed.");
 }
 
 template <typename Rows>
@@ -77,11 +75,14 @@ void addStart(Rows& s) {
   s.number("start_cell_m", &S::start_cell_m, "m", {0.05, 5},
            "Cell of the search's grid; it grows where the map is too large for it.");
   s.number("start_min_explained", &S::start_min_explained, "", {0, 1},
-           "Share of a scan's points on surfaces of the map, less the share of its rays that pass "
-           "through "
-           "one, below which a start is not believed.");
-  s.number("start_min_lead", &S::start_min_lead, "", {0, 1},
-           "Lead in that share over the second-best place, below which a start is ambiguous.");
+           "Share of a scan's points on surfaces of the map, below which a start is not believed.");
+  s.number(
+      "start_max_contradicted", &S::start_max_contradicted, "", {0, 1},
+      "Share of a scan's points in space that the map shows open, from which on a start is not "
+      "believed: another place or storey. More where much has changed since the survey.");
+  s.number(
+      "start_min_lead", &S::start_min_lead, "", {0, 1},
+      "Lead in what speaks for it over the second-best place, below which a start is ambiguous.");
   s.number("start_max_mlookups", &S::start_max_mlookups, "", {1, 1e6},
            "Million look-ups in the grids after which a search is given up.");
 }

@@ -24,6 +24,8 @@ std::string toString(MatchRefusal refusal) {
       return "large step";
     case MatchRefusal::kNotConverged:
       return "not converged";
+    case MatchRefusal::kMapContradicts:
+      return "the map shows something else there";
     case MatchRefusal::kNotVerified:
       return "not verified";
     case MatchRefusal::kContradiction:

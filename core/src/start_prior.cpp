@@ -22,4 +22,10 @@ PriorFactor startPrior(const State& first, const EstimatorSettings& settings) {
   return PriorFactor(first, information, StateVector::Zero());
 }
 
+ChainNode withoutPast(ChainNode node, const EstimatorSettings& settings) {
+  node.edge_factors.clear();
+  node.node_factors.insert(node.node_factors.begin(), startPrior(node.state, settings));
+  return node;
+}
+
 }  // namespace paloc

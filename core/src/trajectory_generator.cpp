@@ -20,13 +20,6 @@ constexpr double kMinGuessSigmaRotation = 0.01;  // rad
 constexpr double kBriefGap_s = 1.0;              // in which a platform does not stop or start
 constexpr double kFirstFrameInterval_s = 0.1;    // stands for the time since a frame that never was
 
-// The node that begins a window: what came before is not known to it, but for the biases.
-ChainNode withoutPast(ChainNode node, const EstimatorSettings& settings) {
-  node.edge_factors.clear();
-  node.node_factors.insert(node.node_factors.begin(), startPrior(node.state, settings));
-  return node;
-}
-
 }  // namespace
 
 TrajectoryGenerator::TrajectoryGenerator(const EstimatorSettings& settings,
@@ -181,15 +174,20 @@ void TrajectoryGenerator::advance(const OdometryFrame& frame) {
   row.guess_step_position = step.head<3>();
   row.guess_step_rotation = step.tail<3>().norm();
   addEdgeFactors(frame, last.state.T_map_body, imu, dt_s, node, row);
-  const bool found = row.match.accepted() && row.match.searched;
-  if (found) startAnew(fromMrpt(row.match.T_map_body), node);
+  std::optional<Pose> T_found_expected;  // of a lost body that is found
+  if (row.match.accepted() && row.match.searched) {
+    T_found_expected = fromMrpt(row.match.T_map_body) * node.state.T_map_body.inverse();
+    displace(*T_found_expected, node.state);
+    correlation_ = ScanCorrelation(settings_.map_correlation_distance_m);
+  }
   if (row.match.accepted()) addMapFactor(row.match, dt_s, node);
   row.at_rest = stillness_.update(frame.t_ns, last.state.bias_gyro);
   if (row.at_rest) addStationaryFactors(last.t_ns, diagnostics_.back().at_rest, node);
   const bool believed = start_.confirm(row.match);
-  if (append(std::move(node), row, found)) {
+  if (append(std::move(node), row, T_found_expected)) {
     rememberOdometry(fromMrpt(frame.T_odom_body));
   } else {
+    ++refusals_in_a_row_;
     motion_skipped_ = frame.motion_covariance;
     odometry_broken_ = !frame.continues;
   }
@@ -244,22 +242,23 @@ MapMatch TrajectoryGenerator::matchScan(const Scan& scan, const Pose& predicted,
 }
 
 // A body that was lost and is found: a new window begins at this node, and the nodes since it was
-// lost come along, for the batch.
-void TrajectoryGenerator::startAnew(const Pose& T_map_body, ChainNode& node) {
+// lost come along, for the batch. The old window stays where the new one refuses its first node.
+bool TrajectoryGenerator::startAnew(const Pose& T_found_expected, const ChainNode& node) {
+  FixedLagSmoother window(settings_.smoother);
+  const UpdateSummary begun = window.add(withoutPast(node, settings_));
+  if (begun.status == UpdateSummary::Status::kRefused) return false;
   collect(smoother_.window(true));
-  const Pose T_found_expected = T_map_body * node.state.T_map_body.inverse();
   for (std::size_t k = firstLost(history_, diagnostics_); k < history_.size(); ++k) {
     displace(T_found_expected, history_[k].node.state);
   }
-  displace(T_found_expected, node.state);
   repairs_ = repairsSoFar();
   ++repairs_.reanchored;
-  smoother_ = FixedLagSmoother(settings_.smoother);
+  smoother_ = std::move(window);
   window_first_ = history_.size();
-  correlation_ = ScanCorrelation(settings_.map_correlation_distance_m);
   plausibility_ = MatchPlausibility(settings_);
   few_points_.forget();
   relocation_.reset();
+  return true;
 }
 
 // The node's state is the prediction.
@@ -309,13 +308,16 @@ void TrajectoryGenerator::addStationaryFactors(TimeNs since_ns, bool rested_befo
   }
 }
 
-// False if the smoother refuses the node; `first`: it begins a window.
-bool TrajectoryGenerator::append(ChainNode node, FrameDiagnostics row, bool first) {
-  const std::uint64_t repairs_before = smoother_.repairs().total();
+// False if the smoother refuses the node. One that was found elsewhere begins a window.
+bool TrajectoryGenerator::append(ChainNode node, FrameDiagnostics row,
+                                 const std::optional<Pose>& T_found_expected) {
+  const std::uint64_t repairs_before = T_found_expected ? 0 : smoother_.repairs().total();
   {
     StageScope stage(timer_, "smooth");
-    const ChainNode& added = first ? withoutPast(node, settings_) : node;
-    if (smoother_.add(added).status == UpdateSummary::Status::kRefused) {
+    const bool added = T_found_expected
+                           ? startAnew(*T_found_expected, node)
+                           : smoother_.add(node).status != UpdateSummary::Status::kRefused;
+    if (!added) {
       unused_.add("OdometryFrame", "estimator", "refused by the smoother");
       return false;
     }
@@ -347,9 +349,8 @@ RepairCounts TrajectoryGenerator::repairsSoFar() const {
 std::vector<TrajectoryPoint> TrajectoryGenerator::takeOnline() {
   if (start_.pending()) return {};
   const auto from = online_.begin() + static_cast<std::ptrdiff_t>(online_taken_);
-  std::vector<TrajectoryPoint> result(from, online_.end());
   online_taken_ = online_.size();
-  return result;
+  return {from, online_.end()};
 }
 
 const FrameDiagnostics* TrajectoryGenerator::lastFrame() const {

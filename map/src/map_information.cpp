@@ -13,7 +13,7 @@ constexpr double kSamePlaneHeightM = 0.1;
 constexpr int kKnownRows = 5;  // of a patch, for its normal to be known
 // A patch whose mean residual is more than so many squared standard deviations stands elsewhere.
 constexpr double kSureSquare = 9;
-constexpr double kSharedThickness = 0.25;  // of the square
+constexpr double kSharedThickness = 0.25;  // of the square, beyond white noise
 
 using Vec4f = float __attribute__((vector_size(16)));
 using Vec4i = std::int32_t __attribute__((vector_size(16)));
@@ -182,7 +182,8 @@ Mat6 sharedSpread(std::span<const PlaneRow> rows, const SharedErrors& shared) {
   return spread;
 }
 
-std::vector<double> assignPatches(std::span<PlaneRow> rows, double patch_m, double plane_bias_m) {
+std::vector<double> assignPatches(std::span<PlaneRow> rows, double patch_m, double plane_bias_m,
+                                  double map_noise_m) {
   std::vector<Patch> patches;
   std::vector<PatchGroup> groups;
   const double patch_sq = patch_m * patch_m;
@@ -201,8 +202,9 @@ std::vector<double> assignPatches(std::span<PlaneRow> rows, double patch_m, doub
   for (PlaneRow& row : rows) row.patch = merged[static_cast<std::size_t>(row.patch)];
   std::vector<double> variances(patches.size());
   for (std::size_t k = 0; k < patches.size(); ++k) {
-    variances[k] =
-        plane_bias_m * plane_bias_m + kSharedThickness * patches[k].thickness_sq / patches[k].rows;
+    const double thickness_sq = patches[k].thickness_sq / patches[k].rows;
+    const double excess_sq = std::max(thickness_sq - map_noise_m * map_noise_m, 0.0);
+    variances[k] = plane_bias_m * plane_bias_m + kSharedThickness * excess_sq;
   }
   return variances;
 }

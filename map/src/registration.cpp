@@ -278,8 +278,9 @@ void Registration::moveRows(const Vec6& step) {
 }
 
 Mat6 Registration::spreadOfRows() {
-  const SharedErrors errors{assignPatches(rows_, settings_.plane_patch_m, settings_.plane_bias_m),
-                            settings_.range_bias_m};
+  const SharedErrors errors{
+      assignPatches(rows_, settings_.plane_patch_m, settings_.plane_bias_m, settings_.map_noise_m),
+      settings_.range_bias_m};
   return sharedSpread(rows_, errors);
 }
 

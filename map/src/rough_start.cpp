@@ -8,7 +8,7 @@ namespace paloc {
 namespace {
 
 constexpr std::size_t kCoarsePoints = 800;
-constexpr std::size_t kRays = 300;
+constexpr std::size_t kRays = 600;
 constexpr double kFitsM = 0.1;
 constexpr double kGoodShare =
     0.9;  // of all matched, and of all matchable: no further start is tried
@@ -68,9 +68,7 @@ RoughStart searchAround(Registration& registration, const PriorMap& map,
              .gate_m = std::min(settings.fine_distance_m, settings.max_distance_m),
              .max_iterations = settings.max_iterations});
   found.evidence = weighStart(registration, found.alignment, map, kRays);
-  found.verified = found.evidence.fitting >= settings.locate_min_inlier_share &&
-                   found.evidence.worth() >= settings.start_min_explained &&
-                   found.evidence.blocked <= settings.locate_max_blocked_share;
+  found.refusal = judgeStart(found.evidence, settings);
   return found;
 }
 

@@ -9,7 +9,7 @@ namespace paloc {
 struct RoughStart {
   Alignment alignment;  ///< the best one
   StartEvidence evidence;
-  bool verified = false;  ///< enough points fit, and few rays pass through surfaces
+  MatchRefusal refusal = MatchRefusal::kNone;  ///< by the evidence
 };
 
 /// Registers the points set in `registration` from a rough pose (map-local, about 1 m and 10

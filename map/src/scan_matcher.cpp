@@ -95,7 +95,7 @@ class ScanMatcher::Work {
                               step.tail<3>().norm() > settings_.locate_max_step_rad)) {
       answer.refusal = MatchRefusal::kLargeStep;
     }
-    if (answer.accepted() && !found.verified) answer.refusal = MatchRefusal::kNotVerified;
+    if (answer.accepted()) answer.refusal = found.refusal;
     return answer;
   }
 
@@ -108,8 +108,7 @@ class ScanMatcher::Work {
                            searched.refusal == MatchRefusal::kNoPlaceFound;
       return far_out ? direct : searched;  // the more telling of the two
     }
-    const double lead =
-        (searched.explained - searched.blocked) - (direct.explained - direct.blocked);
+    const double lead = worthOf(searched) - worthOf(direct);
     // Along an open direction the rough pose is all there is.
     if (lead <= 0 || leavesOpen(direct)) return direct;
     const Vec6 apart = boxminus(fromMrpt(searched.T_map_body), fromMrpt(direct.T_map_body));
@@ -117,6 +116,10 @@ class ScanMatcher::Work {
     if (near || lead >= settings_.start_min_lead) return searched;
     direct.refusal = MatchRefusal::kAmbiguous;
     return direct;
+  }
+
+  static double worthOf(const MapMatch& match) {
+    return match.explained - match.blocked - match.contradicted;
   }
 
   static bool leavesOpen(const MapMatch& match) {
@@ -153,6 +156,7 @@ class ScanMatcher::Work {
   static void tellEvidence(const StartEvidence& evidence, MapMatch& answer) {
     answer.explained = evidence.explained;
     answer.blocked = evidence.blocked;
+    answer.contradicted = evidence.contradicted;
   }
 
   // Thins the scan and sets it up. The answer still says "not converged".

@@ -10,29 +10,23 @@ namespace {
 constexpr double kMaxCells = 6e7;       // 8 MB a grid, of which there are two a level
 constexpr int kLevels = 7;              // cubes of up to 64 cells
 constexpr double kUprightCosine = 0.7;  // of a map plane's normal to the vertical, at most
-constexpr std::size_t kCoarsePoints = 800, kRays = 300;
+constexpr std::size_t kCandidates =
+    36;  // where the true place is half missing, many have more hits
+constexpr std::size_t kCoarsePoints = 800, kRays = 600;
 constexpr std::size_t kFinePlaces = 3;  // that are registered with all points, and compared
+// A place that leaves more than this may be held by the wrong faces of walls, a thickness off.
+constexpr double kSureWorth = 0.95, kNudgeM = 0.15;
 constexpr double kSamePlaceM = 0.3, kSamePlaceRad = 0.1;
 // The more a place leaves unexplained, the more the next must: one that explains all but a tenth
 // stands out from one that explains all but two, one that explains all but three does not from one
-// with four.
-constexpr double kLead = 2;
-// Nothing but the scan speaks for a place where nobody said that the body is, and a search picks
-// the best of very many: it may leave this much of what is left unexplained near a rough pose.
-constexpr double kUnvouched = 0.65;
+// with four. A quarter of the scan is enough in any case: half of the place may not be mapped.
+constexpr double kLead = 2, kSureLead = 0.25;
 // Of the share that must be explained in the end, grids may miss so much: points on edges of cells.
 constexpr double kGridLoss = 0.1;
 
 bool samePlace(const Pose& a, const Pose& b) {
   const Vec6 step = boxminus(a, b);
   return step.head<3>().norm() < kSamePlaceM && step.tail<3>().norm() < kSamePlaceRad;
-}
-
-// As near to a rough pose as registration from there would be believed.
-bool isNear(const Pose& found, const Pose& rough, const MatcherSettings& settings) {
-  const Vec6 step = boxminus(found, rough);
-  return step.head<3>().norm() <= settings.locate_max_step_m &&
-         step.tail<3>().norm() <= settings.locate_max_step_rad;
 }
 
 }  // namespace
@@ -81,7 +75,7 @@ std::vector<StartFinder::Place> StartFinder::placesOf(const StartCandidates& can
   for (const StartCandidate& candidate : candidates.found) {
     const Mat3 turn = so3::exp(Vec3(0, 0, candidate.yaw));
     places.push_back(registerFrom({candidate.position, turn * region.R_level_body}, first_gate_m,
-                                  kRays / 2, registration));
+                                  kRays / 4, registration));
   }
   std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
     return a.evidence.worth() > b.evidence.worth();
@@ -96,19 +90,30 @@ std::vector<StartFinder::Place> StartFinder::placesOf(const StartCandidates& can
   return distinct;
 }
 
-MatchRefusal StartFinder::judge(const FoundStart& found, const StartRegion& region,
-                                bool finished) const {
+// The best of a place and of what registration comes to from beside it.
+StartFinder::Place StartFinder::nudged(const Place& place, Registration& registration) const {
+  if (place.evidence.worth() > kSureWorth) return place;
+  Place best = place;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double by_m : {kNudgeM, -kNudgeM}) {
+      Pose from = place.alignment.T_local_body;
+      from.position[axis] += by_m;
+      const Place other = registerFrom(from, settings_.max_distance_m, kRays, registration);
+      if (other.evidence.worth() > best.evidence.worth()) best = other;
+    }
+  }
+  return best;
+}
+
+MatchRefusal StartFinder::judge(const FoundStart& found, bool finished) const {
   const StartEvidence& e = found.evidence;
   if (!finished) return MatchRefusal::kSearchUnfinished;
-  const bool vouched =
-      region.rough && isNear(found.alignment.T_local_body, *region.rough, settings_);
-  const double may_leave = (vouched ? 1 : kUnvouched) * (1 - settings_.start_min_explained);
-  if (1 - e.worth() > may_leave || e.fitting < settings_.locate_min_inlier_share ||
-      e.blocked > settings_.locate_max_blocked_share) {
-    return MatchRefusal::kNotVerified;
-  }
+  const MatchRefusal refusal = judgeStart(e, settings_);
+  if (refusal != MatchRefusal::kNone) return refusal;
   const double left = 1 - e.worth(), second_left = 1 - found.runner_up;
-  const bool ahead = second_left - left >= settings_.start_min_lead && second_left >= kLead * left;
+  const double lead = second_left - left;
+  const bool ahead =
+      lead >= kSureLead || (lead >= settings_.start_min_lead && second_left >= kLead * left);
   return ahead ? MatchRefusal::kNone : MatchRefusal::kAmbiguous;
 }
 
@@ -119,6 +124,7 @@ FoundStart StartFinder::find(const std::vector<Point3f>& points_body, const Star
       map, pickSearchPoints(points_body, region.R_level_body, map.frame.cell_m), region.box,
       {.min_share = settings_.start_min_explained - kGridLoss,
        .max_mlookups = settings_.start_max_mlookups,
+       .candidates = kCandidates,
        .threads = settings_.threads});
   FoundStart found;
   if (candidates.found.empty()) {
@@ -138,10 +144,12 @@ FoundStart StartFinder::find(const std::vector<Point3f>& points_body, const Star
   std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
     return a.evidence.worth() > b.evidence.worth();
   });
+  places.front() = nudged(places.front(), registration);
   const Pose best = places.front().alignment.T_local_body;
   found.evidence = places.front().evidence;
   for (const Place& place : places) {
     if (samePlace(place.alignment.T_local_body, best)) continue;
+    if (isRefuted(place.evidence, settings_)) continue;
     found.runner_up = place.evidence.worth();
     break;
   }
@@ -149,7 +157,7 @@ FoundStart StartFinder::find(const std::vector<Point3f>& points_body, const Star
       best, {.first_gate_m = settings_.max_distance_m,
              .gate_m = std::min(settings_.fine_distance_m, settings_.max_distance_m),
              .max_iterations = settings_.max_iterations});
-  found.refusal = judge(found, region, candidates.finished);
+  found.refusal = judge(found, candidates.finished);
   return found;
 }
 

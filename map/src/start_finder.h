@@ -21,7 +21,7 @@ struct FoundStart {
   MatchRefusal refusal = MatchRefusal::kNoPlaceFound;
   Alignment alignment;     ///< of the best place; `registration` holds its rows
   StartEvidence evidence;  ///< for it
-  double runner_up = 0;    ///< worth of the second-best place
+  double runner_up = 0;    ///< worth of the second-best place that the map does not refute
 };
 
 /// Finds a scan in a region of the map: a search over grids gives candidates, each is registered,
@@ -50,7 +50,8 @@ class StartFinder {
                               Registration& registration) const;
   Place registerFrom(const Pose& from, double first_gate_m, std::size_t rays,
                      Registration& registration) const;
-  MatchRefusal judge(const FoundStart& found, const StartRegion& region, bool finished) const;
+  Place nudged(const Place& place, Registration& registration) const;
+  MatchRefusal judge(const FoundStart& found, bool finished) const;
 
   const PriorMap& map_;
   const MatcherSettings& settings_;

@@ -13,9 +13,9 @@ namespace paloc {
 namespace {
 
 constexpr double kApartM = 1.0, kApartRad = 10 * std::numbers::pi / 180;
-// Poses with fewer hits than this share of the best one's lead nowhere: registration does not turn
-// a place that fits so much worse into the better one.
-constexpr double kWorthOfBest = 0.85;
+// Poses with fewer hits than this share of the best one's lead nowhere. Where half of the true
+// place is missing in the map, wrong ones have more hits than it, but no more than all.
+constexpr double kWorthOfBest = 0.6;
 constexpr double kMinYawStepRad = 0.5 * std::numbers::pi / 180,
                  kMaxYawStepRad = 4 * std::numbers::pi / 180;
 

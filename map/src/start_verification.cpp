@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "map_coverage.h"
+#include "point_vector.h"
+
 namespace paloc {
 namespace {
 
@@ -12,6 +15,14 @@ constexpr double kOnMapM = 0.08;     // this near to a map point is on its surfa
 // Within a surface, and not past its edge, is what has surface on all sides so far away.
 constexpr double kInsideM = 0.15;
 constexpr double kFitsM = 0.1;
+constexpr double kOffMapM = 0.15;  // this far from all map points is off its surfaces
+// Standard deviations that the share of contradicting points, told from some of them, must stay
+// below its limit by.
+constexpr double kSure = 2;
+// Rays that graze a thick surface pass through points of it: at the right place in a map of scans
+// up to a tenth of them.
+constexpr double kMaxBlocked = 0.1;
+constexpr double kRefuted = 2;          // times what may be
 constexpr double kThroughCosine = 0.5;  // flatter rays glide along a surface
 
 PriorMap::Nearest nearestTo(const PriorMap& map, const Vec3& at, double within_m) {
@@ -66,7 +77,39 @@ double blockedShare(const PriorMap& map, const std::vector<Point3f>& points_body
   return rays == 0 ? 0 : static_cast<double>(blocked) / static_cast<double>(rays);
 }
 
+// The share of points off all surfaces where the survey would have seen one: at the right pose,
+// what has come since, and what the survey saw from one side only.
+double contradictedShare(const PriorMap& map, const std::vector<Point3f>& points_body,
+                         const Pose& pose) {
+  const MapCoverage coverage(map, Vec3::UnitZ());
+  std::size_t contradicted = 0;
+  for (const Point3f& p : points_body) {
+    const Vec3 at = pose * toVec(p);
+    contradicted += !nearestTo(map, at, kOffMapM).found() && coverage.hasGroundBelow(at) ? 1U : 0U;
+  }
+  return static_cast<double>(contradicted) /
+         static_cast<double>(std::max<std::size_t>(points_body.size(), 1));
+}
+
 }  // namespace
+
+MatchRefusal judgeStart(const StartEvidence& evidence, const MatcherSettings& settings) {
+  if (evidence.explained < settings.start_min_explained ||
+      evidence.fitting < settings.locate_min_inlier_share) {
+    return MatchRefusal::kNotVerified;
+  }
+  const auto rays = static_cast<double>(std::max<std::size_t>(evidence.rays, 1));
+  const double share = std::max(evidence.contradicted, 1 / rays);
+  const double at_most = evidence.contradicted + kSure * std::sqrt(share / rays);
+  const bool contradicts = at_most > settings.start_max_contradicted;
+  return contradicts || evidence.blocked > kMaxBlocked ? MatchRefusal::kMapContradicts
+                                                       : MatchRefusal::kNone;
+}
+
+bool isRefuted(const StartEvidence& evidence, const MatcherSettings& settings) {
+  return evidence.contradicted > kRefuted * settings.start_max_contradicted ||
+         evidence.blocked > kRefuted * kMaxBlocked;
+}
 
 StartEvidence weighStart(const Registration& registration, const Alignment& alignment,
                          const PriorMap& map, std::size_t rays) {
@@ -77,8 +120,10 @@ StartEvidence weighStart(const Registration& registration, const Alignment& alig
   StartEvidence evidence;
   evidence.explained = fitting / std::max(1.0, 1.0 * (tried - undecided));
   evidence.fitting = fitting / std::max(1.0, 1.0 * alignment.matched);
-  evidence.blocked = blockedShare(map, registration.averaged().everyNth(rays).points,
-                                  registration.sensorPosition(), alignment.T_local_body);
+  const std::vector<Point3f> some = registration.averaged().everyNth(rays).points;
+  evidence.blocked = blockedShare(map, some, registration.sensorPosition(), alignment.T_local_body);
+  evidence.rays = some.size();
+  evidence.contradicted = contradictedShare(map, some, alignment.T_local_body);
   return evidence;
 }
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 
 #include "paloc/core/mrpt_pose.h"
@@ -9,7 +10,7 @@
 namespace paloc {
 namespace {
 
-constexpr double kFrame_s = 0.1, kDarkFrom_s = 8, kDarkTo_s = 18, kEnd_s = 30;
+constexpr double kFrame_s = 0.1, kDarkFrom_s = 8, kDark_s = 10, kEnd_s = 30;
 constexpr double kSigma_m = 0.01, kSigma_rad = 0.002;
 
 /// A map whose every place looks like every other to registration, while a search tells the truth.
@@ -25,10 +26,15 @@ class DeceptiveMap : public MapMatcher {
   MapMatch locate(const Scan& scan, const StartGuess&) override {
     MapMatch match = at(motion_.pose(secondsBetween(0, scan.end_ns)));
     if (!knows_all) match.refusal = MatchRefusal::kNoPlaceFound;
+    const double t = secondsBetween(0, scan.end_ns);
+    if (t > broken_from_s && t < broken_to_s) {
+      match.T_map_body.x(std::numeric_limits<double>::quiet_NaN());
+    }
     return match;
   }
 
   bool knows_all = true;
+  double broken_from_s = 0, broken_to_s = 0;  // when what a search finds is no pose
 
  private:
   MapMatch at(const Pose& pose) {
@@ -52,13 +58,18 @@ class DeceptiveMap : public MapMatcher {
   std::normal_distribution<double> normal_;
 };
 
-/// Ten seconds of a walk were not recorded at all.
-Result runThroughTheDark(bool map_knows_all) {
+/// Ten seconds of a walk were not recorded at all, from `dark_from_s`; for `broken_s` then, the map
+/// answers with poses that are none.
+Result runThroughTheDark(bool map_knows_all, double dark_from_s = kDarkFrom_s,
+                         double broken_s = 0) {
+  const double dark_to_s = dark_from_s + kDark_s;
   test::SmoothMotion motion;
   const auto map = std::make_shared<DeceptiveMap>(motion);
+  map->broken_from_s = dark_to_s;
+  map->broken_to_s = dark_to_s + broken_s;
   TrajectoryGenerator generator(EstimatorSettings(), map);
   generator.setInitialPose(toMrpt(motion.pose(kFrame_s)));
-  const auto recorded = [](double t) { return t < kDarkFrom_s || t > kDarkTo_s; };
+  const auto recorded = [=](double t) { return t < dark_from_s || t > dark_to_s; };
   bool first = true;
   for (int f = 1; f * kFrame_s < kEnd_s; ++f) {
     for (int k = 0; k <= 20; ++k) {
@@ -116,7 +127,7 @@ TEST(Kidnapped, WhoIsNotFoundIsFlaggedAsLost) {
   const Result result = runThroughTheDark(false);
   std::size_t lost = 0;
   for (const TrajectoryPoint& p : result.trajectory) {
-    if (p.t_ns < nsFromSeconds(kDarkTo_s)) {
+    if (p.t_ns < nsFromSeconds(kDarkFrom_s + kDark_s)) {
       EXPECT_LT(errorAt(p), 5 * kSigma_m);
     } else {
       EXPECT_EQ(p.flag, PoseFlag::kLost) << errorAt(p);
@@ -124,6 +135,17 @@ TEST(Kidnapped, WhoIsNotFoundIsFlaggedAsLost) {
     }
   }
   EXPECT_GT(lost, 100u);
+}
+
+// So soon after the start nothing is known of what is usual, and such a pose comes through to the
+// smoother, which refuses it: the window before must be there still.
+TEST(Kidnapped, APlaceThatIsNoPoseBeginsNoWindow) {
+  const Result result = runThroughTheDark(true, 1.5, 3);
+  ASSERT_GT(result.trajectory.size(), 100u);
+  for (const TrajectoryPoint& p : result.trajectory) {
+    EXPECT_LT(errorAt(p), 5 * kSigma_m) << secondsBetween(0, p.t_ns) << " s";
+  }
+  EXPECT_EQ(result.repairs.reanchored, 1u);
 }
 
 }  // namespace

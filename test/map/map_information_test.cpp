@@ -126,7 +126,7 @@ TEST(MapInformation, CovarianceHoldsUnderSharedBiases) {
     for (unsigned run = 0; run < kRuns; ++run) {
       const Scan scan = test::simulateScan(world, truth, 3000, {0.02, bias, bias}, 30, 100 + run);
       std::vector<PlaneRow> rows = rowsInRoom(world, scan, truth, 0.02);
-      const SharedErrors shared{assignPatches(rows, 20, bias), bias};
+      const SharedErrors shared{assignPatches(rows, 20, bias, 0), bias};
       const NormalEquations plain = leastSquares(rows);
       const Eigen::Matrix<double, 6, 6> hessian = plain.information;
       const Eigen::Matrix<double, 6, 1> gradient = plain.gradient;
@@ -142,6 +142,19 @@ TEST(MapInformation, CovarianceHoldsUnderSharedBiases) {
       EXPECT_GT(plain_nees, 5) << bias;
     }
   }
+}
+
+// White noise of the map's points is no error that a surface's points share.
+TEST(MapInformation, OnlyThicknessBeyondTheMapsNoiseIsShared) {
+  std::vector<PlaneRow> rows(20);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    rows[k].normal_body = Vec3::UnitX();
+    rows[k].point_body = Vec3(2, 0.1 * static_cast<double>(k), 0);
+    rows[k].surface_sigma = 0.004;
+  }
+  EXPECT_DOUBLE_EQ(assignPatches(rows, 10, 0.003, 0.005).at(0), 0.003 * 0.003);
+  for (PlaneRow& row : rows) row.surface_sigma = 0.013;
+  EXPECT_NEAR(assignPatches(rows, 10, 0.003, 0.005).at(0), 9e-6 + 0.25 * 0.012 * 0.012, 1e-12);
 }
 
 // A wall that stands 5 cm from where the map has it draws the pose with it. What is left of the
@@ -162,7 +175,7 @@ TEST(MapInformation, AWallThatWasMovedIsInTheCovariance) {
   const Vec6 error = hessian.ldlt().solve(gradient);
   for (PlaneRow& row : rows) row.residual -= row.jacobian().dot(error);
   EXPECT_GT(error.head<3>().norm(), 0.01);
-  const SharedErrors shared{assignPatches(rows, 20, 0.005), 0};
+  const SharedErrors shared{assignPatches(rows, 20, 0.005, 0), 0};
   EXPECT_LT(error.dot(underSharedErrors(rows, shared) * error) / 6, 2);
   for (PlaneRow& row : rows) row.residual = 0;
   EXPECT_GT(error.dot(underSharedErrors(rows, shared) * error) / 6, 2)

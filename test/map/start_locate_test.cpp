@@ -134,6 +134,48 @@ TEST(StartLocate, RoomOfAnotherSizeIsRefused) {
   }
 }
 
+// The same walls, other furniture: another storey of the building, whose map was taken by mistake.
+TEST(StartLocate, AnotherStoreyIsRefusedFromWhereTheRightOneWouldBe) {
+  test::BoxWorld storey = test::emptyRoom();
+  storey.T_map_world = furnishedRoom().T_map_world;
+  storey.boxes.push_back({Vec3(-5, 1.5, 0), Vec3(-4.6, 3.2, 1.9)});
+  storey.boxes.push_back({Vec3(0.2, -3.9, 0), Vec3(2.4, -2.8, 0.8)});
+  storey.boxes.push_back({Vec3(4.5, 0.5, 0), Vec3(5, 2.5, 1.2)});
+  const auto matcher = ScanMatcher::onto(roomMap(), {});
+  for (const StartGuess& guess : {StartGuess{}, roughly(truthIn(storey), Vec3::Zero(), 0),
+                                  roughly(truthIn(storey), Vec3(0.5, 0.3, 0), 0.1),
+                                  roughly(truthIn(storey), Vec3(2, -1, 0), 0.7)}) {
+    const MapMatch match = matcher->locate(scanIn(storey), guess);
+    EXPECT_FALSE(match.accepted())
+        << match.explained << ' ' << match.contradicted << ' ' << match.blocked;
+  }
+}
+
+// What lies beyond the part that was surveyed says nothing against a place. (Without a pose so near
+// half of a box is ambiguous: moved and turned, as much of it lies beyond, and little contradicts.)
+TEST(StartLocate, FindsAScanInAMapThatLacksHalfOfTheRoom) {
+  const test::BoxWorld world = furnishedRoom();
+  const Pose truth = truthIn(world), T_world_map = world.T_map_world.inverse();
+  PointCloud half = sampleMap(world, 0.06, 0.003, 1);
+  std::erase_if(half.points, [&](const Point3f& p) {
+    const Vec3 at(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z));
+    return (T_world_map * at).x() > -0.3;
+  });
+  half.intensity.clear();
+  const auto matcher = ScanMatcher::onto(PriorMap::build(half, {}), {});
+  for (const StartGuess& guess :
+       {roughly(truth, Vec3(0.5, 0.3, 0), 0.1), roughly(truth, Vec3(-0.4, 0.6, 0.1), -0.15)}) {
+    const MapMatch match = matcher->locate(scanIn(world), guess);
+    ASSERT_TRUE(match.accepted()) << toString(match.refusal) << ' ' << match.explained << ' '
+                                  << match.contradicted << ' ' << match.blocked << ' '
+                                  << match.runner_up << ' ' << match.searched;
+    EXPECT_LT(match.explained, 0.65);
+    const Vec6 error = boxminus(fromMrpt(match.T_map_body), truth);
+    EXPECT_LT(error.head<3>().norm(), 0.015);
+    EXPECT_LT(error.tail<3>().norm(), 0.004);
+  }
+}
+
 TEST(StartLocate, SameBytesOnOneThreadAndTwo) {
   const auto locate = [&](int threads) {
     MatcherSettings settings;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "paloc/tools/bench_place.h"
@@ -14,7 +15,7 @@ BenchStartSettings small() {
   settings.scene = "room";
   settings.sensor = "vlp-16";
   settings.places = 2;
-  settings.wrong = 0;
+  settings.partial = settings.wrong = settings.storeys = 0;
   settings.map_spacing_m = 0.08;
   settings.survey_step_deg = 0.5;
   return settings;
@@ -33,6 +34,46 @@ TEST(BenchStart, FindsWhatIsInTheMapFromEveryKindOfStart) {
   EXPECT_EQ(json.at("rows").size(), 6U);
   EXPECT_EQ(json.at("rows")[0].at("known"), "1 m, 15 deg");
   EXPECT_NE(tableOf(rows).find("nothing"), std::string::npos);
+}
+
+TEST(BenchStart, TellsMapsOfWhichAPartIsMissing) {
+  BenchStartSettings settings = small();
+  settings.places = 0;
+  settings.partial = 1;
+  const auto rows = benchStart(settings, [](const std::string&, double) {});
+  ASSERT_EQ(rows.size(), 6U);
+  EXPECT_EQ(rows[0].starts, 1U);
+  EXPECT_EQ(rows[0].accepted, 0U) << tableOf(rows);
+  EXPECT_EQ(jsonOf(rows).at("rows")[0].at("map"), "part");
+}
+
+// From the same places most rays end where they did, on walls, floor and ceiling, and some do not.
+TEST(BenchPlace, AnotherStoreyHasTheSameWallsAndOtherFurniture) {
+  const synth::Scene building = synth::makeBuilding();
+  const synth::Raycaster a(building.mesh);
+  for (const std::uint64_t storey : {1U, 2U}) {
+    const synth::Scene other = synth::makeBuildingStorey(storey);
+    const synth::Raycaster b(other.mesh);
+    std::size_t rays = 0, same = 0;
+    for (const Vec3& station : building.survey_stations) {
+      std::vector<Eigen::Vector3f> directions;
+      for (int i = 0; i < 360; ++i) {
+        const float angle = 0.0174533F * static_cast<float>(i),
+                    down = 0.1F * static_cast<float>(i % 9 - 5);
+        directions.emplace_back(
+            Eigen::Vector3f(std::cos(angle), std::sin(angle), down).normalized());
+      }
+      std::vector<synth::RayHit> hit_a(directions.size()), hit_b(directions.size());
+      a.cast(station, directions, hit_a);
+      b.cast(station, directions, hit_b);
+      for (std::size_t i = 0; i < directions.size(); ++i) {
+        ++rays;
+        same += std::abs(hit_a[i].distance_m - hit_b[i].distance_m) < 0.01F ? 1U : 0U;
+      }
+    }
+    EXPECT_GT(same, rays / 2);
+    EXPECT_LT(same, rays * 9 / 10);
+  }
 }
 
 TEST(BenchPlace, MirrorImageIsTheSameSceneTheOtherWayRound) {

@@ -31,10 +31,20 @@ Vec3 somewhereOn(const std::vector<Vec3>& route, RandomStream& random) {
 
 BenchPlace::BenchPlace(synth::Scene scene, const synth::SurveyModel& survey_model,
                        const MapSettings& settings, std::uint64_t seed)
-    : scene_(std::move(scene)), raycaster_(scene_.mesh), seed_(seed) {
-  const PointCloud cloud =
-      survey(survey_model, scene_.mesh, raycaster_, scene_.survey_stations, seed);
-  map_ = PriorMap::build(cloud, settings, scene_.name);
+    : scene_(std::move(scene)),
+      raycaster_(scene_.mesh),
+      seed_(seed),
+      settings_(settings),
+      survey_(survey(survey_model, scene_.mesh, raycaster_, scene_.survey_stations, seed)),
+      map_(PriorMap::build(survey_, settings, scene_.name)) {}
+
+std::shared_ptr<const PriorMap> BenchPlace::mapBefore(const Vec3& normal, double height_m) const {
+  PointCloud part;
+  for (const Point3f& p : survey_.points) {
+    const Vec3 at(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z));
+    if (normal.dot(at) < height_m) part.points.push_back(p);
+  }
+  return PriorMap::build(part, settings_, scene_.name + ", a part");
 }
 
 Pose BenchPlace::pose(std::size_t index) const {

@@ -21,6 +21,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kFoundM = 0.1, kFoundRad = 1 * kDegree;
 constexpr double kGravityErrorRad = 1 * kDegree;  // of an IMU that is carried
 constexpr double kPositionErrorM = 0.5;           // of a position that somebody knows
+constexpr std::size_t kStoreys = 5;               // of the building, itself included
 
 Vec3 anyDirection(RandomStream& random) {
   const double x = random.normal(), y = random.normal(), z = random.normal();
@@ -66,6 +67,12 @@ StartGuess guessOf(const Kind& kind, const Pose& truth, RandomStream& random) {
   return guess;
 }
 
+std::vector<BenchStartRow> emptyRows(BenchStartMap map) {
+  std::vector<BenchStartRow> rows;
+  for (const Kind& kind : kKinds) rows.push_back({kind.name, map});
+  return rows;
+}
+
 /// Starts and what came of them.
 class Bench {
  public:
@@ -77,32 +84,15 @@ class Bench {
     matching_.range_noise_m = sensor_.range_noise_m;
     if (settings.list_file.empty()) return;
     list_.open(settings.list_file);
-    list_ << "scan,map,kind,place,answer,searched,error_m,error_deg,explained,blocked,runner_up,"
+    list_ << "scan,map,kind,place,answer,searched,error_m,error_deg,explained,blocked,contradicted,"
+             "runner_up,"
              "overlap,residual_rms_m,ms\n";
   }
 
-  std::vector<BenchStartRow> rightMap() {
-    const auto made = makePlace(synth::makeScene(settings_.scene));
-    const BenchPlace& place = *made;
-    const auto matcher = ScanMatcher::onto(place.map(), matching_);
-    std::vector<BenchStartRow> rows;
-    for (const Kind& kind : kKinds) rows.push_back({kind.name, false, 0, 0, 0, {}, {}});
-    for (std::size_t i = 0; i < settings_.places; ++i) {
-      progress_("the right map", static_cast<double>(i) / static_cast<double>(settings_.places));
-      const Pose truth = place.pose(i);
-      const Scan scan = place.scanAt(sensor_, truth, i);
-      for (std::size_t k = 0; k < std::size(kKinds); ++k) {
-        RandomStream random(settings_.seed, RandomPurpose::kStart, i);
-        const StartGuess guess = guessOf(kKinds[k], truth, random);
-        locate(*matcher, scan, guess, &truth, rows[k],
-               text(place.scene().name, ',', place.scene().name, ',', '"', kKinds[k].name, '"', ',',
-                    i));
-      }
-    }
-    return rows;
-  }
-
+  std::vector<BenchStartRow> rightMap();
+  std::vector<BenchStartRow> partialMaps();
   std::vector<BenchStartRow> wrongMaps();
+  std::vector<BenchStartRow> otherStoreys();
 
  private:
   std::unique_ptr<BenchPlace> makePlace(synth::Scene scene) const {
@@ -112,6 +102,9 @@ class Bench {
     return std::make_unique<BenchPlace>(std::move(scene), model, settings_.map, settings_.seed);
   }
 
+  // A scan at a pose of the place, looked for in a map of it from every kind of start.
+  void locateFromAll(ScanMatcher& matcher, const BenchPlace& place, std::size_t index,
+                     std::vector<BenchStartRow>& rows);
   void locate(ScanMatcher& matcher, const Scan& scan, const StartGuess& guess, const Pose* truth,
               BenchStartRow& row, const std::string& label);
 
@@ -141,8 +134,49 @@ void Bench::locate(ScanMatcher& matcher, const Scan& scan, const StartGuess& gue
   if (!list_.is_open()) return;
   list_ << label << ',' << toString(match.refusal) << ',' << match.searched << ','
         << error.head<3>().norm() << ',' << error.tail<3>().norm() / kDegree << ','
-        << match.explained << ',' << match.blocked << ',' << match.runner_up << ',' << match.overlap
-        << ',' << match.residual_rms_m << ',' << ms.count() << '\n';
+        << match.explained << ',' << match.blocked << ',' << match.contradicted << ','
+        << match.runner_up << ',' << match.overlap << ',' << match.residual_rms_m << ','
+        << ms.count() << '\n';
+}
+
+void Bench::locateFromAll(ScanMatcher& matcher, const BenchPlace& place, std::size_t index,
+                          std::vector<BenchStartRow>& rows) {
+  const Pose truth = place.pose(index);
+  const Scan scan = place.scanAt(sensor_, truth, index);
+  for (std::size_t k = 0; k < std::size(kKinds); ++k) {
+    RandomStream random(settings_.seed, RandomPurpose::kStart, index);
+    const StartGuess guess = guessOf(kKinds[k], truth, random);
+    locate(matcher, scan, guess, &truth, rows[k],
+           text(place.scene().name, ',', nameOf(rows[k].map), ',', '"', kKinds[k].name, '"', ',',
+                index));
+  }
+}
+
+std::vector<BenchStartRow> Bench::rightMap() {
+  const auto place = makePlace(synth::makeScene(settings_.scene));
+  const auto matcher = ScanMatcher::onto(place->map(), matching_);
+  std::vector<BenchStartRow> rows = emptyRows(BenchStartMap::kRight);
+  for (std::size_t i = 0; i < settings_.places; ++i) {
+    progress_("the right map", static_cast<double>(i) / static_cast<double>(settings_.places));
+    locateFromAll(*matcher, *place, i, rows);
+  }
+  return rows;
+}
+
+// At each place another part is missing: all beyond an upright plane that passes within a metre.
+std::vector<BenchStartRow> Bench::partialMaps() {
+  const auto place = makePlace(synth::makeScene(settings_.scene));
+  std::vector<BenchStartRow> rows = emptyRows(BenchStartMap::kPart);
+  for (std::size_t i = 0; i < settings_.partial; ++i) {
+    progress_("parts of the map", static_cast<double>(i) / static_cast<double>(settings_.partial));
+    RandomStream random(settings_.seed, RandomPurpose::kMissing, i);
+    const double heading = 2 * std::numbers::pi * random.uniform();
+    const Vec3 normal(std::cos(heading), std::sin(heading), 0);
+    const double height = normal.dot(place->pose(i).position) + 2 * random.uniform() - 1;
+    const auto matcher = ScanMatcher::onto(place->mapBefore(normal, height), matching_);
+    locateFromAll(*matcher, *place, i, rows);
+  }
+  return rows;
 }
 
 // Scenes that differ wherever one stands: a corridor turned by 30 degrees is the same corridor.
@@ -165,8 +199,7 @@ std::vector<BenchStartRow> Bench::wrongMaps() {
     places.push_back(makePlace(std::move(scene)));
     matchers.push_back(ScanMatcher::onto(places.back()->map(), matching_));
   }
-  std::vector<BenchStartRow> rows;
-  for (const Kind& kind : kKinds) rows.push_back({kind.name, true, 0, 0, 0, {}, {}});
+  std::vector<BenchStartRow> rows = emptyRows(BenchStartMap::kWrong);
   const std::size_t n = places.size(), pairs = n * (n - 1);
   for (std::size_t i = 0; i < settings_.wrong; ++i) {
     progress_("wrong maps", static_cast<double>(i) / static_cast<double>(settings_.wrong));
@@ -186,16 +219,59 @@ std::vector<BenchStartRow> Bench::wrongMaps() {
   return rows;
 }
 
+// Who has taken the map of the wrong storey starts from where the right one would have it.
+std::vector<BenchStartRow> Bench::otherStoreys() {
+  std::vector<std::unique_ptr<BenchPlace>> places;
+  std::vector<std::shared_ptr<ScanMatcher>> matchers;
+  for (std::uint64_t storey = 0; storey < kStoreys; ++storey) {
+    progress_("surveying storeys", static_cast<double>(storey) / kStoreys);
+    places.push_back(
+        makePlace(storey == 0 ? synth::makeScene("building") : synth::makeBuildingStorey(storey)));
+    matchers.push_back(ScanMatcher::onto(places.back()->map(), matching_));
+  }
+  std::vector<BenchStartRow> rows = emptyRows(BenchStartMap::kStorey);
+  for (std::size_t i = 0; i < settings_.storeys; ++i) {
+    progress_("other storeys", static_cast<double>(i) / static_cast<double>(settings_.storeys));
+    // All scans are of the building itself, whose way is clear of its own furniture.
+    const std::size_t in = 1 + i % (kStoreys - 1);
+    const std::size_t k = i / (kStoreys - 1) % std::size(kKinds);
+    RandomStream random(settings_.seed, RandomPurpose::kStart, i);
+    const Pose truth = places[0]->pose(i);
+    locate(*matchers[in], places[0]->scanAt(sensor_, truth, i), guessOf(kKinds[k], truth, random),
+           nullptr, rows[k],
+           text(places[0]->scene().name, ',', places[in]->scene().name, ',', '"', kKinds[k].name,
+                '"', ',', i));
+  }
+  return rows;
+}
+
 }  // namespace
+
+std::string nameOf(BenchStartMap map) {
+  switch (map) {
+    case BenchStartMap::kRight:
+      return "right";
+    case BenchStartMap::kPart:
+      return "part";
+    case BenchStartMap::kWrong:
+      return "wrong";
+    case BenchStartMap::kStorey:
+      return "storey";
+  }
+  return "";
+}
 
 std::vector<BenchStartRow> benchStart(const BenchStartSettings& settings,
                                       const BenchStartProgress& progress) {
   Bench bench(settings, progress);
   std::vector<BenchStartRow> rows;
-  if (settings.places > 0) rows = bench.rightMap();
-  if (settings.wrong > 0) {
-    for (BenchStartRow& row : bench.wrongMaps()) rows.push_back(std::move(row));
-  }
+  const auto take = [&](std::vector<BenchStartRow> more) {
+    for (BenchStartRow& row : more) rows.push_back(std::move(row));
+  };
+  if (settings.places > 0) take(bench.rightMap());
+  if (settings.partial > 0) take(bench.partialMaps());
+  if (settings.wrong > 0) take(bench.wrongMaps());
+  if (settings.storeys > 0) take(bench.otherStoreys());
   return rows;
 }
 

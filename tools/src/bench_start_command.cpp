@@ -11,12 +11,14 @@ namespace {
 
 constexpr const char* kExample = R"(Example:
   paloc bench start
-  paloc bench start --places 20 --wrong 0 --sensor vlp-16 --json
+  paloc bench start --places 20 --partial 0 --wrong 0 --storeys 0 --sensor vlp-16 --json
 
 Scans are simulated at random poses of a scene and looked for in a survey of it: from a pose that is
 off by 1 m and 15 degrees, or 3 m and 45 degrees, from the position alone, and from nothing. Then
-scans of every scene are looked for in the map of every other, where none is to be found. Found is
-what is within 10 cm and 1 degree of the truth; false, what was accepted and is not.)";
+the same in maps cut off beyond a plane that passes within a metre. Then scans of every scene are
+looked for in the map of every other, and scans of the building in those of its other storeys (the
+same walls, other furniture), where none is to be found. Found is what is within 10 cm and 1 degree
+of the truth; false, what was accepted and is not.)";
 
 class BenchStartCommand : public Command {
  public:
@@ -28,7 +30,17 @@ class BenchStartCommand : public Command {
     command_->add_option("--places", settings_.places, "random poses in it")
         ->check(CLI::Range(0, 100000))
         ->capture_default_str();
-    command_->add_option("--wrong", settings_.wrong, "starts in wrong maps")
+    command_
+        ->add_option("--partial", settings_.partial,
+                     "random poses in maps that lack half of what is seen from there")
+        ->check(CLI::Range(0, 100000))
+        ->capture_default_str();
+    command_->add_option("--wrong", settings_.wrong, "starts in maps of other places")
+        ->check(CLI::Range(0, 1000000))
+        ->capture_default_str();
+    command_
+        ->add_option("--storeys", settings_.storeys,
+                     "starts in maps of other storeys of the building")
         ->check(CLI::Range(0, 1000000))
         ->capture_default_str();
     command_->add_option("--seed", settings_.seed, "of all random numbers")->capture_default_str();

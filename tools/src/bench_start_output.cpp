@@ -23,8 +23,8 @@ std::string tableOf(const std::vector<BenchStartRow>& rows) {
   for (const BenchStartRow& row : rows) {
     char line[160];
     std::snprintf(line, sizeof line, "%-6s %-22s %6zu %6zu %6zu %8zu %7.0f %7.0f  ",
-                  row.wrong_map ? "wrong" : "right", row.kind.c_str(), row.starts, row.found,
-                  row.accepted, row.starts - row.found - row.accepted, quantile(row.locate_ms, 0.5),
+                  nameOf(row.map).c_str(), row.kind.c_str(), row.starts, row.found, row.accepted,
+                  row.starts - row.found - row.accepted, quantile(row.locate_ms, 0.5),
                   quantile(row.locate_ms, 0.99));
     out += line + reasonsOf(row) + '\n';
   }
@@ -36,7 +36,7 @@ nlohmann::ordered_json jsonOf(const std::vector<BenchStartRow>& rows) {
   json["rows"] = nlohmann::ordered_json::array();
   for (const BenchStartRow& row : rows) {
     json["rows"].push_back(
-        {{"map", row.wrong_map ? "wrong" : "right"},
+        {{"map", nameOf(row.map)},
          {"known", row.kind},
          {"starts", row.starts},
          {"found", row.found},

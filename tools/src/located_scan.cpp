@@ -37,11 +37,12 @@ Mat6 covarianceOf(const MapMatch& match) {
 
 std::string evidenceText(const MapMatch& m) {
   std::string out = formatted(
-      "  explained    %.0f %% of the points lie on the map\n  blocked      "
-      "%.0f %% of the rays pass through it\n",
-      100 * m.explained, 100 * m.blocked);
+      "  explained    %.0f %% of the points lie on the map\n"
+      "  contradicted %.1f %% of the points lie where the map shows open space\n"
+      "  blocked      %.1f %% of the rays pass through it\n",
+      100 * m.explained, 100 * m.contradicted, 100 * m.blocked);
   if (m.searched) {
-    out += formatted("  second best  %.0f %% (explained less blocked)\n", 100 * m.runner_up);
+    out += formatted("  second best  %.0f %% (explained less the two)\n", 100 * m.runner_up);
   }
   return out;
 }
@@ -127,6 +128,7 @@ nlohmann::ordered_json jsonOf(const LocatedScan& located) {
                {"covariance", covarianceJson(m)},
                {"directions", nullptr},
                {"explained", m.explained},
+               {"contradicted", m.contradicted},
                {"blocked", m.blocked},
                {"runner_up", m.runner_up},
                {"points", m.points},

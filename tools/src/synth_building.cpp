@@ -1,3 +1,4 @@
+#include "paloc/tools/synth_furnish.h"
 #include "paloc/tools/synth_furniture.h"
 #include "paloc/tools/synth_scene.h"
 
@@ -41,6 +42,11 @@ constexpr Point2 kLamps[] = {
     {19.2, 4.8}, {23.2, 3.2}, {2.5, 10.6}, {2.5, 13.2}, {7.0, 11.8}, {10.0, 11.8}, {13.6, 11.8}, {16.4, 11.8},
     {19.4, 11.8}, {22.0, 11.8}};
 // clang-format on
+// Between the middles of the walls: S1 to S3, N1 to N4.
+const Region kRooms[] = {{{0, 0, 0}, {7.5, 6.5, kHeight}}, {{7.5, 0, 0}, {14, 6.5, kHeight}},
+                         {{14, 0, 0}, {25, 6.5, kHeight}}, {{0, 8.7, 0}, {5, 15, kHeight}},
+                         {{5, 8.7, 0}, {12, 15, kHeight}}, {{12, 8.7, 0}, {18, 15, kHeight}},
+                         {{18, 8.7, 0}, {25, 15, kHeight}}};
 
 struct Door {
   double from, to;
@@ -211,6 +217,14 @@ void addLibraryN4(MeshBuilder& b) {
   addPlant(b, onFloor(18.5, 14.5));
 }
 
+Scene walkedAndSurveyed(MeshBuilder& b) {
+  Scene scene;
+  scene.mesh = b.take();
+  for (const Point2& p : kRoute) scene.route.emplace_back(p.x, p.y, 0);
+  for (const Point2& p : kStations) scene.survey_stations.emplace_back(p.x, p.y, 1.6);
+  return scene;
+}
+
 }  // namespace
 
 Scene makeBuilding() {
@@ -225,13 +239,26 @@ Scene makeBuilding() {
   addOfficeN2(b);
   addOfficeN3(b);
   addLibraryN4(b);
-  Scene scene;
+  Scene scene = walkedAndSurveyed(b);
   scene.description =
       "a floor of an office building, 25 x 15 x 3 m: seven furnished rooms on a corridor";
-  scene.mesh = b.take();
   scene.changeables = buildingChangeables();
-  for (const Point2& p : kRoute) scene.route.emplace_back(p.x, p.y, 0);
-  for (const Point2& p : kStations) scene.survey_stations.emplace_back(p.x, p.y, 1.6);
+  return scene;
+}
+
+Scene makeBuildingStorey(std::uint64_t storey) {
+  MeshBuilder b;
+  addShell(b);
+  addCeiling(b);
+  RandomStream random(storey, RandomPurpose::kRooms, 1);
+  for (const double x : {10.7, 14.3, 20.5}) {
+    addPieceByTheWall(b, onFloor(x + random.uniform(), 8.7 - 0.3), random);
+    addPieceByTheWall(b, onFloor(x + random.uniform(), 6.5 + 0.3, 180), random);
+  }
+  for (const Region& room : kRooms) furnishRoom(b, room.low, room.high, random);
+  Scene scene = walkedAndSurveyed(b);
+  scene.name = "building-storey-" + std::to_string(storey);
+  scene.description = "another storey of the building: the same walls, other furniture";
   return scene;
 }
 

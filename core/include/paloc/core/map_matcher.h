@@ -40,6 +40,7 @@ enum class MatchRefusal {
   kLargeStep,
   kNotConverged,
   kNotVerified,
+  kMapContradicts,    ///< of a start: the map shows other things there: another place or storey
   kContradiction,     ///< to what IMU, odometry and earlier matches say
   kNoPlaceFound,      ///< a search: the scan fits nowhere in the map
   kAmbiguous,         ///< a search: it fits more than one place, or one place in more than one way
@@ -77,7 +78,9 @@ struct MapMatch {
   bool searched = false;  ///< found by search, not by registration from a rough pose
   double explained = 0;   ///< of a start: share of the points tried that lie on the map's surfaces
   double blocked = 0;     ///< of a start: share of the rays that pass through surfaces of the map
-  double runner_up = 0;   ///< of a search: `explained` less `blocked` of the second-best place
+  double contradicted =
+      0;                 ///< of a start: share of the points where the map has nothing, but ground
+  double runner_up = 0;  ///< of a search: `explained` less the two of the second-best place
   /// The points that were tried, enough to match the scan again; null if there is no such need.
   std::shared_ptr<const Scan> thinned;
 

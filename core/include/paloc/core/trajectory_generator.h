@@ -69,13 +69,13 @@ class PALOC_EXPORT TrajectoryGenerator {
   MapMatch askMap(const OdometryFrame& frame, const NodeEstimate& last, const State& predicted,
                   bool by_imu);
   MapMatch matchScan(const Scan& scan, const Pose& predicted, const Mat6& covariance);
-  void startAnew(const Pose& T_map_body, ChainNode& node);
+  bool startAnew(const Pose& T_found_expected, const ChainNode& node);
   void addEdgeFactors(const OdometryFrame& frame, const Pose& T_map_body_last,
                       const std::optional<ImuFactor>& imu, double dt_s, ChainNode& node,
                       FrameDiagnostics& row) const;
   void addMapFactor(const MapMatch& match, double since_last_s, ChainNode& node);
   void addStationaryFactors(TimeNs since_ns, bool rested_before, ChainNode& node) const;
-  bool append(ChainNode node, FrameDiagnostics row, bool first);
+  bool append(ChainNode node, FrameDiagnostics row, const std::optional<Pose>& T_found_expected);
   OdometryFrame sinceLastNode(const OdometryFrame& frame) const;
   void rememberOdometry(const Pose& T_odom_body);
   RepairCounts repairsSoFar() const;

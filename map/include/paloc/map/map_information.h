@@ -61,13 +61,14 @@ PALOC_EXPORT NormalEquations leastSquares(std::span<const PlaneRow> rows);
 PALOC_EXPORT Mat6 sharedSpread(std::span<const PlaneRow> rows, const SharedErrors& shared);
 
 /// Gives each row the patch that it lies on and returns the variance of each patch's bias (m2):
-/// that of the survey, plane_bias^2, and a quarter of the mean square thickness of its surface,
-/// since where a map is thick, neighbouring planes are wrong together (a map of drifting scans is).
+/// that of the survey, plane_bias^2, and a quarter of what the mean square thickness of its surface
+/// has beyond that of the map's white noise, since where a map is thick, neighbouring planes are
+/// wrong together (a map of drifting scans is).
 /// Rows share a patch when they lie on the same plane (normal within 12 degrees, height within 10
 /// cm) and within `patch_m` of the patch's first row: a wall is one patch however often it is
 /// interrupted. Greedy, in order.
 PALOC_EXPORT std::vector<double> assignPatches(std::span<PlaneRow> rows, double patch_m,
-                                               double plane_bias_m);
+                                               double plane_bias_m, double map_noise_m);
 
 /// Information of the body tangent [translation in the body frame, rotation] as that of the pose's
 /// tangent [position in the map, rotation].

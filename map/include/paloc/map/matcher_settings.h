@@ -25,15 +25,16 @@ struct MatcherSettings {
   double locate_distance_m = 1.5;  ///< point to map point, in the first iterations of a rough start
   double locate_max_step_m = 1.5;  ///< furthest that a rough start is corrected by
   double locate_max_step_rad = 0.35;
-  double locate_min_inlier_share = 0.8;   ///< of the matched points, within 10 cm of their plane
-  double locate_max_blocked_share = 0.2;  ///< of the rays that pass through a surface of the map
-  double start_reach_m = 3.0;             ///< a start is searched within this of a rough position
-  double start_reach_rad = 0.8;           ///< and within this of a rough pose's heading
-  double start_position_reach_m = 1.0;    ///< the same where only a position is known
+  double locate_min_inlier_share = 0.8;  ///< of the matched points, within 10 cm of their plane
+  double start_reach_m = 3.0;            ///< a start is searched within this of a rough position
+  double start_reach_rad = 0.8;          ///< and within this of a rough pose's heading
+  double start_position_reach_m = 1.0;   ///< the same where only a position is known
   double start_cell_m = 0.2;  ///< grid of the search; coarser where the map is too large for it
-  double start_min_explained =
-      0.77;  ///< share of points on the map's surfaces, less that of rays through them
-  double start_min_lead = 0.06;      ///< of the best place before the second-best, in that figure
+  double start_min_explained = 0.4;  ///< share of points on the map's surfaces
+  /// Share of points where the map has open space, with what chance may add to it: half of what is
+  /// seen may be missing in the map of the right place, but little may contradict it.
+  double start_max_contradicted = 0.03;
+  double start_min_lead = 0.06;      ///< of the best place before the second-best
   double start_max_mlookups = 4000;  ///< effort before a search is given up, in million look-ups
   bool degeneracy_handling = true;  ///< weak directions are scaled down, open ones held and cut off
   bool spectrum = true;             ///< compute MapMatch::spectrum

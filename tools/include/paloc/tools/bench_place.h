@@ -20,6 +20,8 @@ class BenchPlace {
   const synth::Scene& scene() const { return scene_; }
   const synth::Raycaster& raycaster() const { return raycaster_; }
   const std::shared_ptr<const PriorMap>& map() const { return map_; }
+  /// A map of the part of the survey on one side of a plane, that of smaller normal . x (m).
+  std::shared_ptr<const PriorMap> mapBefore(const Vec3& normal, double height_m) const;
 
   /// The `index`-th random pose: along the scene's route, 0.3 m aside, 0.2 m up and down, any
   /// heading, tilted by up to some 10 degrees.
@@ -31,6 +33,8 @@ class BenchPlace {
   synth::Scene scene_;
   synth::Raycaster raycaster_;
   std::uint64_t seed_;
+  MapSettings settings_;
+  PointCloud survey_;
   std::shared_ptr<const PriorMap> map_;
 };
 

@@ -15,7 +15,8 @@ enum class RandomPurpose : std::uint64_t {
   kSurfaceBias,
   kRooms,
   kPose,
-  kStart
+  kStart,
+  kMissing
 };
 
 /// A stream of random numbers of its own for (seed, purpose, index), so that work may be done in

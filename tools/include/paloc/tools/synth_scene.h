@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,10 @@ Scene makeScene(const std::string& name);
 
 /// A floor of an office building, 25 x 15 x 3 m: seven furnished rooms on a corridor.
 Scene makeBuilding();
+
+/// Another storey of that building: the same walls, doors, windows, lamps and route, the furniture
+/// picked at random for each `storey`. Not among sceneNames().
+Scene makeBuildingStorey(std::uint64_t storey);
 
 /// A furnished room, 8 x 6 x 3 m.
 Scene makeRoom();
