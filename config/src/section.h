@@ -67,6 +67,7 @@ class Section {
 // One maker a section, each in its own file.
 std::vector<Setting> changeSettings();
 std::vector<Setting> estimatorSettings();
+std::vector<Setting> fastLioSettings();
 std::vector<Setting> frontendSettings();
 std::vector<Setting> imuSettings();
 std::vector<Setting> mapSettings();

@@ -11,9 +11,9 @@ namespace {
 
 std::vector<Setting> buildTable() {
   std::vector<Setting> table;
-  for (auto section :
-       {frontendSettings, imuSettings, mapSettings, matcherSettings, smootherSettings,
-        stillnessSettings, estimatorSettings, occupancySettings, changeSettings}) {
+  for (auto section : {frontendSettings, fastLioSettings, imuSettings, mapSettings, matcherSettings,
+                       smootherSettings, stillnessSettings, estimatorSettings, occupancySettings,
+                       changeSettings}) {
     for (Setting& row : section()) table.push_back(std::move(row));
   }
   return table;
@@ -52,6 +52,13 @@ struct Formatter {
 };
 
 }  // namespace
+
+FrontendSettings frontendSettingsOf(const Config& config) {
+  FrontendSettings settings = config.frontend;
+  settings.imu_noise = config.estimator.imu;
+  settings.gravity_mps2 = config.estimator.gravity_mps2;
+  return settings;
+}
 
 const std::vector<Setting>& allSettings() {
   static const std::vector<Setting> table = buildTable();

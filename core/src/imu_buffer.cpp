@@ -61,6 +61,14 @@ std::vector<TimeNs> ImuBuffer::stamps(TimeNs start_ns, TimeNs end_ns) const {
   return result;
 }
 
+std::vector<ImuSample> ImuBuffer::between(TimeNs start_ns, TimeNs end_ns) const {
+  std::vector<ImuSample> result;
+  for (const ImuSample& s : samples_) {
+    if (s.t_ns >= start_ns && s.t_ns <= end_ns) result.push_back(s);
+  }
+  return result;
+}
+
 void ImuBuffer::forgetBefore(TimeNs t_ns) {
   while (samples_.size() >= 2 && samples_[1].t_ns <= t_ns) samples_.pop_front();
 }

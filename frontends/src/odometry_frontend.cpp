@@ -3,6 +3,7 @@
 #include <map>
 #include <mutex>
 
+#include "fast_lio_odometry.h"
 #include "paloc/core/errors.h"
 #include "recorded_odometry.h"
 
@@ -16,6 +17,9 @@ struct Registry {
   Registry() {
     factories["recorded"] = [](const FrontendSettings& settings) {
       return std::make_unique<RecordedOdometry>(settings);
+    };
+    factories["fast_lio"] = [](const FrontendSettings& settings) {
+      return std::make_unique<FastLioOdometry>(settings);
     };
   }
 };

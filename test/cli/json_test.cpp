@@ -8,6 +8,7 @@
 #include "paloc/map/cloud_io.h"
 #include "paloc/map/map_changes.h"
 #include "paloc/tools/command.h"
+#include "paloc/tools/rosbag_reader.h"
 #include "paloc/tools/trajectory_csv.h"
 #include "replay_demo.h"
 #include "run_program.h"
@@ -97,6 +98,8 @@ std::map<std::string, Words> soundCalls(const test::TempDir& dir) {
       {"import clouds",
        {"import", "clouds", dir / "clouds", "--times", dir / "times.txt", "-o",
         dir / "clouds.rawlog"}},
+      {"export rosbag", {"export", "rosbag", log, "-o", dir / "json.bag"}},
+      {"import rosbag", {"import", "rosbag", dir / "demo.bag", "-o", dir / "rosbag.rawlog"}},
       {"import kitti", {"import", "kitti", dir / "drive", "-o", dir / "kitti.rawlog"}},
       {"eval traj", {"eval", "traj", truth, truth}},
       {"eval covariance", {"eval", "covariance", truth, dir / "trajectory_cov.csv"}},
@@ -108,13 +111,14 @@ std::map<std::string, Words> soundCalls(const test::TempDir& dir) {
       {"map convert", {"map", "convert", dir / "demo/map.ply", dir / "map.pcd"}},
       {"bench endurance", {"bench", "endurance", "--updates", "100"}},
       {"bench smoother", {"bench", "smoother", "--problem", dir / "resting.problem"}},
+      {"bench frontends", {"bench", "frontends", "--log", log, "--truth", truth}},
       {"bench covariance",
        {"bench", "covariance", "--places", "room", "--seeds", "1", "--duration", "2"}},
       {"bench degeneracy",
        {"bench", "degeneracy", "--scenes", "room", "--sensors", "vlp-16", "--poses", "1"}},
       {"bench start",
-       {"bench", "start", "--scene", "room", "--sensor", "vlp-16", "--places", "1", "--wrong",
-        "0"}},
+       {"bench", "start", "--scene", "room", "--sensor", "vlp-16", "--places", "1", "--partial",
+        "0", "--wrong", "0", "--storeys", "0"}},
       {"bench corridor", {"bench", "corridor", "--sensor", "vlp-16", "--length", "5"}},
       {"bench registration",
        {"bench", "registration", "--map-points", "20000", "--places", "2", "--threads", "1"}},
@@ -133,6 +137,9 @@ TEST(Json, IsOneObjectOnStandardOutputAndNothingElse) {
                                      "--duration", "2", "-o", dir / "demo", "--json"}));
   test::writeFile(dir / "resting.problem", restingProblem());
   writeForeignRecordings(dir);
+  if (builtWithRosbag()) {
+    runPaloc({"export", "rosbag", dir / "demo/recording.rawlog", "-o", dir / "demo.bag"});
+  }
   savePcd(dir / "scan.pcd", test::firstScan(dir / "demo/recording.rawlog"));
   writeCovariantTruth(dir);
   test::writeFile(dir / "changes.json", R"({"objects": [], "missing_from_map": []})");
@@ -146,6 +153,7 @@ TEST(Json, IsOneObjectOnStandardOutputAndNothingElse) {
   const auto calls = soundCalls(dir);
   for (const std::string& name : with_json) {
     if (name == "synth") continue;  // made the recording above
+    if (name.ends_with("rosbag") && !builtWithRosbag()) continue;
     const auto call = calls.find(name);
     if (call == calls.end()) {
       ADD_FAILURE() << "paloc " << name << " takes --json: add a call of it to this test";

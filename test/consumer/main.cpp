@@ -14,7 +14,8 @@
 paloc::Result run(char** files) {
   const auto config = paloc::loadConfig(PALOC_SHARE_DIR "/sensors/vlp-16.yaml");
   const auto map = paloc::PriorMap::load(files[1], config.map);
-  const auto odometry = paloc::OdometryFrontend::create("recorded", config.frontend);
+  const auto odometry =
+      paloc::OdometryFrontend::create("recorded", paloc::frontendSettingsOf(config));
   paloc::TrajectoryGenerator generator(config.estimator,
                                        paloc::ScanMatcher::onto(map, config.matcher));
   generator.setInitialPose(paloc::toMrpt(paloc::readTum(files[2]).front().pose));

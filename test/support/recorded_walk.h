@@ -110,8 +110,8 @@ struct Output {
 };
 
 inline Output run(const std::vector<CObservation::Ptr>& observations,
-                  const FrontendSettings& settings = {}) {
-  const auto frontend = OdometryFrontend::create("recorded", settings);
+                  const FrontendSettings& settings = {}, const std::string& name = "recorded") {
+  const auto frontend = OdometryFrontend::create(name, settings);
   Output output;
   const auto drain = [&] {
     while (auto event = frontend->next()) output.events.push_back(*event);

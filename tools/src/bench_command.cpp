@@ -21,6 +21,7 @@ std::unique_ptr<Command> makeBenchCommand() {
   commands.push_back(makeBenchCovarianceCommand());
   commands.push_back(makeBenchStartCommand());
   commands.push_back(makeBenchCorridorCommand());
+  commands.push_back(makeBenchFrontendsCommand());
   return std::make_unique<CommandGroup>("bench", "Measure speed and accuracy of a part",
                                         std::move(commands));
 }

@@ -12,6 +12,7 @@ std::unique_ptr<Command> makeBenchCorridorCommand();
 std::unique_ptr<Command> makeBenchCovarianceCommand();
 std::unique_ptr<Command> makeBenchDegeneracyCommand();
 std::unique_ptr<Command> makeBenchEnduranceCommand();
+std::unique_ptr<Command> makeBenchFrontendsCommand();
 std::unique_ptr<Command> makeBenchRegistrationCommand();
 std::unique_ptr<Command> makeBenchSmootherCommand();
 std::unique_ptr<Command> makeBenchStartCommand();

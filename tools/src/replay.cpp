@@ -36,7 +36,7 @@ class Replay {
   Replay(const ReplayOptions& options, const Config& config, const std::atomic<bool>& interrupt)
       : options_(options),
         config_(config),
-        source_(options, config.frontend, interrupt),
+        source_(options, frontendSettingsOf(config), interrupt),
         scan_map_(options.octomap) {
     if (config.matcher.threads > 1) read_ahead_.emplace(source_);
   }

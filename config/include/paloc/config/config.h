@@ -25,6 +25,10 @@ struct Config {
   EstimatorSettings estimator;  ///< its parts `imu` and `smoother` are sections of their own
 };
 
+/// The settings of the front-ends, with the IMU's noise and the gravity that they share with the
+/// estimator.
+PALOC_EXPORT FrontendSettings frontendSettingsOf(const Config& config);
+
 /// Reads a YAML file over the defaults. Strict: throws ConfigError ("file:line: key: what is
 /// wrong") on an unknown key (with the nearest known one), a key given twice, a value of the wrong
 /// type or out of its range, settings that contradict each other, and a file that cannot be read.

@@ -29,6 +29,9 @@ class PALOC_EXPORT ImuBuffer {
   /// The stamps of the samples from `start_ns` to `end_ns`, both included.
   std::vector<TimeNs> stamps(TimeNs start_ns, TimeNs end_ns) const;
 
+  /// The samples from `start_ns` to `end_ns`, both included.
+  std::vector<ImuSample> between(TimeNs start_ns, TimeNs end_ns) const;
+
   bool empty() const { return samples_.empty(); }
   std::size_t size() const { return samples_.size(); }
 

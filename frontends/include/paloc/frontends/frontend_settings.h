@@ -2,6 +2,9 @@
 
 #include <string>
 
+#include "paloc/core/imu_noise.h"
+#include "paloc/frontends/fast_lio_settings.h"
+
 namespace paloc {
 
 /// Settings of the front-ends; each reads those that concern it.
@@ -27,6 +30,12 @@ struct FrontendSettings {
   double max_imu_gap_s = 0.05;          ///< samples further apart are not integrated over
   double max_wait_s =
       1.0;  ///< recorded time for which a scan waits for the IMU and odometry at its end
+
+  /// Of the IMU and the place, the same as the estimator's.
+  ImuNoise imu_noise;
+  double gravity_mps2 = 9.80665;
+
+  FastLioSettings fast_lio;
 };
 
 }  // namespace paloc

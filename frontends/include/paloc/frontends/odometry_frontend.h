@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "paloc/core/odometry_frame.h"
+#include "paloc/core/stage_timer.h"
 #include "paloc/core/unused_counts.h"
 
 namespace paloc {
@@ -22,8 +23,8 @@ class PALOC_EXPORT OdometryFrontend {
  public:
   using Ptr = std::unique_ptr<OdometryFrontend>;
 
-  /// Creates the front-end registered under `name` ("recorded"). Throws ConfigError, naming those
-  /// that exist, if there is none.
+  /// Creates the front-end registered under `name` ("recorded", "fast_lio"). Throws ConfigError,
+  /// naming those that exist, if there is none.
   static Ptr create(const std::string& name, const FrontendSettings& settings);
 
   using Factory = std::function<Ptr(const FrontendSettings&)>;
@@ -49,6 +50,11 @@ class PALOC_EXPORT OdometryFrontend {
   /// Known after finish(): what keeps the result from being what was asked for, a sentence each (a
   /// stream that was asked for by its label is not there; no scan could be used).
   virtual std::vector<std::string> problems() const { return {}; }
+
+  /// Is told of the stages of the work, where the front-end tells any; null for none.
+  virtual void setStageTimer(StageTimer* /*timer*/) {}
+  /// Memory of the front-end's own map (bytes); 0 if it has none.
+  virtual std::size_t mapBytes() const { return 0; }
 };
 
 }  // namespace paloc

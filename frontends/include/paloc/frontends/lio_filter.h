@@ -1,0 +1,97 @@
+#pragma once
+
+#include <vector>
+
+#include "paloc/frontends/free_fall_scan.h"
+#include "paloc/frontends/lio_prediction.h"
+#include "paloc/frontends/lio_state.h"
+#include "paloc/frontends/plane_matches.h"
+
+namespace paloc {
+
+/// A point of a scan as it was measured.
+struct MeasuredPoint {
+  Vec3 point_body = Vec3::Zero();  ///< in the body frame at its own time (m)
+  double age_s = 0;                ///< how long before the end of the scan that was
+};
+
+/// What an update with a scan found.
+struct LioUpdate {
+  std::size_t matched = 0;  ///< points with a plane within the gate, at the end
+  int iterations = 0;
+  bool converged = false;
+};
+
+/// The iterated error-state Kalman filter of FAST-LIO2 (W. Xu et al., 2022, section V): state and
+/// covariance, predicted with the IMU, updated with the points of a scan against planes of a local
+/// map. What differs: a point moves with the velocity at the scan's end as well (see FreeFallScan),
+/// so that the velocity is measured and the scan's distortion undone in the same step.
+class PALOC_EXPORT LioFilter {
+ public:
+  struct Limits {
+    int max_iterations = 8;
+    double noise_floor_m = 0.005;
+    double max_gate_m = 0.5;
+  };
+
+  explicit LioFilter(const Limits& limits) : limits_(limits), matches_(limits.noise_floor_m) {}
+
+  /// Begins at a state, with its covariance.
+  void begin(const LioState& state, const LioMatrix& covariance);
+
+  /// Takes another state as mean, with the same covariance.
+  void restart(const LioState& state) { state_ = state; }
+
+  const LioState& state() const { return state_; }
+  const LioMatrix& covariance() const { return covariance_; }
+
+  /// Moves on to the end of a scan. The pose before it becomes the one that motionCovariance()
+  /// starts from.
+  void predict(const Preintegration& imu, const ImuNoise& noise);
+
+  /// Whether the covariance is none any more, or of a hundred metres: better to begin anew.
+  bool isLost() const;
+
+  /// Updates with a scan. `rigid`: the scan's distortion is left as it is, by a velocity of zero:
+  /// where the map's is the same.
+  LioUpdate update(const std::vector<MeasuredPoint>& points, const FreeFallScan& scan,
+                   const Vec3& sensor_body, const LocalVoxelMap& map, bool rigid = false);
+
+  /// Adds errors of these standard deviations (m, rad, m/s) to the state: of a scan that could not
+  /// be undistorted.
+  void blur(double position_m, double rotation_rad, double velocity_mps);
+
+  /// Where the state puts a point that was measured during the scan (m, odom frame).
+  Vec3 place(const MeasuredPoint& point, const FreeFallScan& scan) const;
+
+  /// Covariance of the motion T_0^-1 T_1 since the prediction, in the tangent space [position in
+  /// body frame 0 (m), rotation on the right (rad)], T_0 as it was estimated then: errors that both
+  /// poses share cancel.
+  ///
+  /// Where IMU and scans disagree by more than they should, over the last seconds, it is as much
+  /// larger.
+  Mat6 motionCovariance() const;
+
+  /// By how much the variance of the IMU's noise was raised, so that the steps of the updates are
+  /// as large as expected: 1 for an IMU that is as good as the settings say.
+  double imuFactor() const { return imu_factor_; }
+
+ private:
+  void compare(const Vec6& step, const LioMatrix& gained);
+  void placePoints(const std::vector<MeasuredPoint>& points, const FreeFallScan& scan,
+                   const Vec3& sensor_body, const LioState& x, double ageing);
+  double lever(const std::vector<MeasuredPoint>& points) const;
+
+  Limits limits_;
+  PlaneMatches matches_;
+  LioState state_;
+  LioMatrix covariance_ = LioMatrix::Zero();
+  // The pose before the last prediction, and E[error of the state now . error of that pose].
+  Pose T_odom_body_0_;
+  Mat6 covariance_0_ = Mat6::Zero();
+  Eigen::Matrix<double, lio::kDim, 6> cross_ = Eigen::Matrix<double, lio::kDim, 6>::Zero();
+  double imu_factor_ = 1, disagreement_ = 1;  // variances, as ratios
+  std::vector<PlacedPoint> placed_;
+};
+
+}  // namespace paloc

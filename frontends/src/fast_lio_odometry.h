@@ -1,0 +1,54 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+
+#include "lio_tracker.h"
+#include "paloc/frontends/odometry_frontend.h"
+#include "sensor_intake.h"
+
+namespace paloc {
+
+/// Tightly coupled LiDAR-inertial odometry of the FAST-LIO2 family (see LioFilter, LioTracker).
+///
+/// The odom frame is the body at the end of the first scan; after a pause of more than `max_gap_s`,
+/// or where the filter lost itself, the odometry goes on from its last pose with a new map, and the
+/// first frame does not `continue`. A scan that cannot be registered comes with the pose predicted
+/// and the covariance of the prediction. The first frame is given out with the second, which tells
+/// how the body moved during it.
+class FastLioOdometry : public OdometryFrontend {
+ public:
+  explicit FastLioOdometry(const FrontendSettings& settings);
+
+  void add(const mrpt::obs::CObservation& observation) override;
+  void finish() override;
+  std::optional<FrontendEvent> next() override;
+  const UnusedCounts& unused() const override { return intake_.unused(); }
+  std::vector<std::string> takeNotes() override { return intake_.takeNotes(); }
+  std::vector<std::string> problems() const override;
+  void setStageTimer(StageTimer* timer) override;
+  std::size_t mapBytes() const override { return tracker_.mapBytes(); }
+
+ private:
+  void giveOutWhatIsReady();
+  void giveOutImu(TimeNs until_ns);
+  void giveOutFrame(const LidarFrame& frame);
+  void releaseFirst();
+  bool pointsHaveTimes(const LidarFrame& frame);
+  std::shared_ptr<const Scan> makeScan(const LidarFrame& frame, const ScanMotion& motion);
+  void noteAtEnd();
+
+  FrontendSettings settings_;
+  SensorIntake intake_;
+  ImuBuffer imu_;
+  LioTracker tracker_;
+  StageTimer* timer_ = nullptr;
+  std::deque<FrontendEvent> events_;
+  std::optional<LidarFrame> first_;  // of a stretch: its event waits for the next frame
+  struct {
+    int frames = 0, with_scan = 0, begun = 0, coasted = 0, without_imu = 0;
+  } counts_;
+};
+
+}  // namespace paloc

@@ -1,0 +1,144 @@
+#include "sensor_intake.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+#include "paloc/frontends/imu_reader.h"
+#include "paloc/frontends/lidar_decoder.h"
+#include "paloc/frontends/mrpt_time.h"
+
+namespace paloc {
+namespace {
+
+std::string classNameOf(const mrpt::obs::CObservation& observation) {
+  const std::string name = observation.GetRuntimeClass()->className;
+  return name.substr(name.rfind(':') + 1);
+}
+
+std::string format(const char* pattern, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, pattern, value);
+  return text;
+}
+
+}  // namespace
+
+SensorIntake::SensorIntake(const FrontendSettings& settings)
+    : settings_(settings),
+      lidar_("LiDAR", settings.lidar_label),
+      imu_("IMU", settings.imu_label),
+      imu_samples_(settings.max_imu_gap_s) {}
+
+void SensorIntake::skip(const mrpt::obs::CObservation& observation, const std::string& reason) {
+  unused_.add(classNameOf(observation), observation.sensorLabel, reason);
+}
+
+bool SensorIntake::add(const mrpt::obs::CObservation& observation) {
+  if (const auto* imu = dynamic_cast<const mrpt::obs::CObservationIMU*>(&observation)) {
+    addImu(*imu);
+    return true;
+  }
+  if (!isLidar(observation)) return false;
+  addLidar(observation);
+  return true;
+}
+
+void SensorIntake::addImu(const mrpt::obs::CObservationIMU& observation) {
+  if (!imu_.takes(classNameOf(observation), observation.sensorLabel)) {
+    return skip(observation, "another IMU is used");
+  }
+  std::string problem;
+  const auto sample = decodeImu(observation, problem);
+  if (sample) problem = imu_order_.check(sample->t_ns);
+  if (!problem.empty()) return skip(observation, problem);
+  imu_samples_.add(*sample);
+  newest_ns_ = std::max(newest_ns_.value_or(sample->t_ns), sample->t_ns);
+}
+
+void SensorIntake::addLidar(const mrpt::obs::CObservation& observation) {
+  if (!lidar_.takes(classNameOf(observation), observation.sensorLabel)) {
+    return skip(observation, "another LiDAR is used");
+  }
+  std::string problem;
+  auto frame = decodeLidar(observation, {}, problem, std::move(recycled_));
+  recycled_ = {};
+  if (frame) problem = lidar_order_.check(frame->stamp_ns);
+  if (problem.empty() && last_end_ns_ && frame->endNs() <= *last_end_ns_) {
+    problem = "ends no later than the scan before it";
+  }
+  if (!problem.empty()) return skip(observation, problem);
+  last_end_ns_ = frame->endNs();
+  newest_ns_ = std::max(newest_ns_.value_or(frame->stamp_ns), frame->stamp_ns);
+  // Once for each way of reading: the duration varies a little from scan to scan.
+  if (said_.insert("times of " + frame->label + ": " + frame->time_policy).second) {
+    note("LiDAR '" + frame->label + "' (" + frame->class_name + "): " + frame->time_policy +
+         (frame->duration_ns > 0
+              ? format(", %.1f ms a scan", static_cast<double>(frame->duration_ns) * 1e-6)
+              : ""));
+  }
+  waiting_.push_back(std::move(*frame));
+}
+
+const LidarFrame* SensorIntake::readyScan() const {
+  if (waiting_.empty()) return nullptr;
+  const LidarFrame& frame = waiting_.front();
+  const TimeNs end = frame.endNs();
+  const bool imu = !imu_samples_.empty() && imu_samples_.newestNs() >= end;
+  const bool late = secondsBetween(end, *newest_ns_) > settings_.max_wait_s;
+  return finished_ || imu || late ? &frame : nullptr;
+}
+
+void SensorIntake::popScan() {
+  recycled_ = std::move(waiting_.front());
+  waiting_.pop_front();
+}
+
+std::optional<TimeNs> SensorIntake::imuReleaseNs() const {
+  if (!waiting_.empty() || !newest_ns_ || finished_) return std::nullopt;
+  return *newest_ns_ - nsFromSeconds(settings_.max_wait_s);
+}
+
+void SensorIntake::note(const std::string& sentence) {
+  if (!sentence.empty() && said_.insert(sentence).second) notes_.push_back(sentence);
+}
+
+std::vector<std::string> SensorIntake::takeNotes() { return std::exchange(notes_, {}); }
+
+void SensorIntake::noteAtEnd() {
+  note(lidar_.remark());
+  note(imu_.remark());
+  if (imu_samples_.gaps() == 0) return;
+  note("the IMU pauses for more than " + format("%g s ", settings_.max_imu_gap_s) +
+       std::to_string(imu_samples_.gaps()) + (imu_samples_.gaps() == 1 ? " time" : " times") +
+       format(", at most %.3f s", imu_samples_.longestGapS()) +
+       format(", at t = %.3f s", static_cast<double>(imu_samples_.longestGapNs()) * 1e-9));
+}
+
+std::vector<std::string> SensorIntake::problems() const {
+  std::vector<std::string> sentences;
+  for (const StreamChoice* choice : {&lidar_, &imu_}) {
+    if (const std::string sentence = choice->problem(); !sentence.empty()) {
+      sentences.push_back(sentence);
+    }
+  }
+  return sentences;
+}
+
+std::string SensorIntake::whyNoScan(int used) const {
+  if (used > 0) return {};
+  if (!lidar_.chosen()) {
+    return settings_.lidar_label.empty() ? "the recording has no LiDAR scan" : "";
+  }
+  std::string reason;  // that of most scans; points are counted in rows of their own
+  std::uint64_t most = 0;
+  for (const UnusedCounts::Row& row : unused_.rows()) {
+    const bool of_points = row.reason.starts_with("points ");
+    if (!lidar_.isChosen(row.class_name, row.label) || of_points || row.count <= most) continue;
+    most = row.count;
+    reason = row.reason;
+  }
+  return "none of the LiDAR's scans could be used" + (reason.empty() ? "" : " (" + reason + ")");
+}
+
+}  // namespace paloc

@@ -1,0 +1,97 @@
+#include "paloc/frontends/lio_filter.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace paloc {
+namespace {
+
+ImuBuffer restingImu() {
+  ImuBuffer imu;
+  for (TimeNs t = 0; t <= kNsPerSecond; t += 5'000'000) {
+    imu.add({t, Vec3(0, 0, 9.80665), Vec3::Zero()});
+  }
+  return imu;
+}
+
+LioMatrix somewhatSure(double sigma) { return sigma * sigma * LioMatrix::Identity(); }
+
+/// Points on planes across the given axes, at +-3 m, with 1 cm of noise; the body is at rest at the
+/// origin, in the middle of them.
+struct Walls {
+  std::vector<MeasuredPoint> points;
+  LocalVoxelMap map{{}};
+
+  explicit Walls(const std::vector<int>& axes) {
+    std::mt19937_64 random(11);
+    std::normal_distribution<double> noise(0, 0.01);
+    std::uniform_real_distribution<double> along(-3, 3);
+    for (int i = 0; i < 60'000; ++i) {
+      const int axis = axes[static_cast<std::size_t>(i) % axes.size()];
+      Vec3 point(along(random), along(random), along(random));
+      point[axis] = ((i / 6) % 2 == 0 ? 3 : -3) + noise(random);
+      if (i < 58'000) {
+        map.add(point, point);
+      } else {
+        points.push_back({point, 0});
+      }
+    }
+    map.endScan(Vec3::Zero());
+  }
+};
+
+TEST(LioFilter, ARoomTellsThePoseAndByItTheVelocity) {
+  const ImuBuffer imu = restingImu();
+  const Walls room({0, 1, 2});
+  LioFilter filter({});
+  LioState wrong;
+  wrong.v_odom = Vec3(0.3, -0.2, 0.1);
+  filter.begin(wrong, somewhatSure(0.3));
+  constexpr TimeNs kEnd = 100'000'000;
+  filter.predict(*imu.integrate(0, kEnd, 0.05, {}, Vec3::Zero(), Vec3::Zero()), {});
+  const FreeFallScan scan(imu, kEnd, kEnd, 0.05, Vec3::Zero(), Vec3::Zero());
+  const LioUpdate found = filter.update(room.points, scan, Vec3::Zero(), room.map);
+  EXPECT_GT(found.matched, 1500U);
+  EXPECT_LT(filter.state().T_odom_body.position.norm(), 0.003);
+  EXPECT_LT(so3::log(filter.state().T_odom_body.rotation).norm(), 0.002);
+  const Eigen::VectorXd sigma = filter.covariance().diagonal().cwiseSqrt();
+  EXPECT_LT(sigma.head<6>().maxCoeff(), 0.002);
+  EXPECT_GT(sigma.head<6>().minCoeff(), 1e-5);
+}
+
+TEST(LioFilter, WhatIsOpenStaysAsItWasPredicted) {
+  const ImuBuffer imu = restingImu();
+  const Walls corridor({1, 2});
+  LioFilter filter({});
+  filter.begin({}, somewhatSure(0.2));
+  constexpr TimeNs kEnd = 100'000'000;
+  filter.predict(*imu.integrate(0, kEnd, 0.05, {}, Vec3::Zero(), Vec3::Zero()), {});
+  const LioMatrix before = filter.covariance();
+  const FreeFallScan scan(imu, kEnd, kEnd, 0.05, Vec3::Zero(), Vec3::Zero());
+  filter.update(corridor.points, scan, Vec3::Zero(), corridor.map);
+  const LioMatrix after = filter.covariance();
+  EXPECT_GT(after(lio::kPosition, lio::kPosition), 0.98 * before(lio::kPosition, lio::kPosition));
+  EXPECT_GT(after(lio::kVelocity, lio::kVelocity), 0.98 * before(lio::kVelocity, lio::kVelocity));
+  EXPECT_LT(std::abs(filter.state().T_odom_body.position.x()), 0.01);
+  for (int axis = 1; axis < 3; ++axis) EXPECT_LT(std::sqrt(after(axis, axis)), 0.01) << axis;
+}
+
+// Of an update that knows nothing, the motion's covariance is that of the prediction: errors that
+// both poses share cancel.
+TEST(LioFilter, TheMotionsCovarianceLeavesOutWhatBothPosesShare) {
+  const ImuBuffer imu = restingImu();
+  LioFilter filter({});
+  LioMatrix covariance = LioMatrix::Zero();
+  covariance.diagonal().head<3>().setConstant(4.0);  // position, m2
+  covariance.diagonal().segment<3>(lio::kVelocity).setConstant(0.01);
+  filter.begin({}, covariance);
+  filter.predict(*imu.integrate(0, 100'000'000, 0.05, {}, Vec3::Zero(), Vec3::Zero()), {});
+  const Mat6 motion = filter.motionCovariance();
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(std::sqrt(motion(axis, axis)), 0.1 * 0.1, 2e-4) << "speed times time";
+  }
+}
+
+}  // namespace
+}  // namespace paloc
