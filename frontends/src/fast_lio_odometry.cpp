@@ -1,20 +1,17 @@
 #include "fast_lio_odometry.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
+#include "event_queue.h"
+#include "make_scan.h"
 #include "paloc/core/mrpt_pose.h"
-#include "paloc/frontends/deskew.h"
+#include "sentence_parts.h"
 
 namespace paloc {
 namespace {
 
 constexpr double kNoteworthyNoise = 5;  // in that of the settings
-
-std::string timesText(int count) {
-  return std::to_string(count) + (count == 1 ? " time" : " times");
-}
 
 }  // namespace
 
@@ -55,9 +52,8 @@ void FastLioOdometry::giveOutImu(TimeNs until_ns) {
 void FastLioOdometry::giveOutFrame(const LidarFrame& frame) {
   OdometryFrame result;
   result.t_ns = frame.endNs();
-  intake_.unused().add(frame.class_name, frame.label, "points without a valid return",
-                       frame.invalid_points);
-  const LioTracker::Outcome outcome = tracker_.add(frame, imu_, pointsHaveTimes(frame));
+  const bool deskew = !frame.points_lidar.empty() && intake_.canDeskew(frame);
+  const LioTracker::Outcome outcome = tracker_.add(frame, imu_, deskew);
   releaseFirst();
   ++counts_.frames;
   switch (outcome) {
@@ -68,7 +64,7 @@ void FastLioOdometry::giveOutFrame(const LidarFrame& frame) {
       return;
     case LioTracker::Outcome::kBegun:
       ++counts_.begun;
-      first_ = frame;
+      first_ = {frame, deskew};
       break;
     case LioTracker::Outcome::kCoasted:
       ++counts_.coasted;
@@ -81,7 +77,10 @@ void FastLioOdometry::giveOutFrame(const LidarFrame& frame) {
   result.continues = outcome != LioTracker::Outcome::kBegun;
   if (result.continues) result.motion_covariance = tracker_.motionCovariance();
   result.T_odom_body = toMrpt(tracker_.state().T_odom_body);
-  if (!first_) result.scan = makeScan(frame, tracker_.scanMotion());
+  if (!first_) {
+    const ScanMotion motion = tracker_.scanMotion();
+    result.scan = scanOf(frame, deskew ? &motion : nullptr);
+  }
   events_.emplace_back(std::move(result));
 }
 
@@ -90,49 +89,20 @@ void FastLioOdometry::releaseFirst() {
   if (!first_) return;
   const auto event = std::find_if(events_.begin(), events_.end(), [&](const FrontendEvent& e) {
     const auto* frame = std::get_if<OdometryFrame>(&e);
-    return frame && frame->t_ns == first_->endNs();
+    return frame && frame->t_ns == first_->frame.endNs();
   });
-  const LidarFrame frame = *std::exchange(first_, std::nullopt);
-  if (event == events_.end()) return;
-  std::get<OdometryFrame>(*event).scan = makeScan(frame, tracker_.firstScanMotion());
+  const ScanMotion motion = tracker_.firstScanMotion();
+  std::get<OdometryFrame>(*event).scan = scanOf(first_->frame, first_->deskew ? &motion : nullptr);
+  first_.reset();
 }
 
-bool FastLioOdometry::pointsHaveTimes(const LidarFrame& frame) {
-  if (frame.deskewed || frame.duration_ns == 0) return false;
-  if (!settings_.deskew) {
-    intake_.note("scans are not deskewed, as the settings say");
-    return false;
-  }
-  return !frame.dt_ns.empty();
-}
-
-std::shared_ptr<const Scan> FastLioOdometry::makeScan(const LidarFrame& frame,
-                                                      const ScanMotion& motion) {
+std::shared_ptr<const Scan> FastLioOdometry::scanOf(const LidarFrame& frame,
+                                                    const ScanMotion* motion) {
   StageScope stage(timer_, "deskew");
-  if (frame.points_lidar.empty()) {
-    intake_.unused().add(frame.class_name, frame.label, "scan without a point");
-    return nullptr;
-  }
-  const RangeLimits limits{settings_.min_range_m, settings_.max_range_m};
-  DroppedPoints dropped;
-  std::shared_ptr<Scan> scan;
-  if (pointsHaveTimes(frame)) {
-    scan = std::make_shared<Scan>(deskew(frame, motion, limits, dropped));
-  } else {
-    if (!frame.deskewed && frame.dt_ns.empty()) {
-      intake_.unused().add(frame.class_name, frame.label, "not deskewed: no time for each point");
-    }
-    scan = std::make_shared<Scan>(placeOnBody(frame, limits, dropped));
-  }
-  intake_.unused().add(frame.class_name, frame.label, "points nearer than min_range_m",
-                       dropped.too_near);
-  intake_.unused().add(frame.class_name, frame.label, "points beyond max_range_m", dropped.too_far);
-  if (!scan->points_body.empty()) {
-    ++counts_.with_scan;
-    return scan;
-  }
-  intake_.unused().add(frame.class_name, frame.label, "scan without a point within range");
-  return nullptr;
+  auto scan =
+      makeScan(frame, motion, {settings_.min_range_m, settings_.max_range_m}, intake_.unused());
+  counts_.with_scan += scan != nullptr;
+  return scan;
 }
 
 void FastLioOdometry::finish() {
@@ -141,13 +111,14 @@ void FastLioOdometry::finish() {
   giveOutWhatIsReady();
   releaseFirst();
   if (!intake_.imu().empty()) giveOutImu(intake_.imu().newestNs());
-  intake_.noteAtEnd();
+  intake_.noteStreams();
+  intake_.noteImuGaps();
   noteAtEnd();
 }
 
 void FastLioOdometry::noteAtEnd() {
   if (counts_.begun > 1) {
-    intake_.note("the odometry began anew " + timesText(counts_.begun - 1));
+    intake_.note("the odometry began anew " + timesInFigures(counts_.begun - 1));
   }
   const std::string of_all = " of " + std::to_string(counts_.frames) + " scans ";
   if (counts_.coasted > 0) {
@@ -159,13 +130,10 @@ void FastLioOdometry::noteAtEnd() {
                  of_all + "and the way to them: taken as an even motion");
   }
   if (tracker_.worstImuNoise() > kNoteworthyNoise) {
-    char text[160];
-    std::snprintf(
-        text, sizeof text,
-        "the IMU disagrees with the scans: its noise was taken as up to %.0f times that of "
-        "the settings (imu.*_noise_density); look at its scale, filter and clock",
-        tracker_.worstImuNoise());
-    intake_.note(text);
+    intake_.note("the IMU disagrees with the scans: its noise was taken as up to " +
+                 figure("%.0f", tracker_.worstImuNoise()) +
+                 " times that of the settings (imu.*_noise_density); look at its scale, filter and "
+                 "clock");
   }
   if (counts_.without_imu > 0) {
     intake_.note(std::to_string(counts_.without_imu) + of_all +
@@ -176,12 +144,8 @@ void FastLioOdometry::noteAtEnd() {
 std::optional<FrontendEvent> FastLioOdometry::next() {
   if (events_.empty()) return std::nullopt;
   const auto* frame = std::get_if<OdometryFrame>(&events_.front());
-  if (first_ && frame && frame->t_ns == first_->endNs()) return std::nullopt;
-  // Not a plain move of the variant: GCC 12 at -O3 then warns of an uninitialized member.
-  auto event = std::visit([](auto& e) { return std::optional<FrontendEvent>(std::move(e)); },
-                          events_.front());
-  events_.pop_front();
-  return event;
+  if (first_ && frame && frame->t_ns == first_->frame.endNs()) return std::nullopt;
+  return takeFront(events_);
 }
 
 std::vector<std::string> FastLioOdometry::problems() const {

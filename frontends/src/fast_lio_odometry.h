@@ -35,8 +35,7 @@ class FastLioOdometry : public OdometryFrontend {
   void giveOutImu(TimeNs until_ns);
   void giveOutFrame(const LidarFrame& frame);
   void releaseFirst();
-  bool pointsHaveTimes(const LidarFrame& frame);
-  std::shared_ptr<const Scan> makeScan(const LidarFrame& frame, const ScanMotion& motion);
+  std::shared_ptr<const Scan> scanOf(const LidarFrame& frame, const ScanMotion* motion);
   void noteAtEnd();
 
   FrontendSettings settings_;
@@ -45,7 +44,11 @@ class FastLioOdometry : public OdometryFrontend {
   LioTracker tracker_;
   StageTimer* timer_ = nullptr;
   std::deque<FrontendEvent> events_;
-  std::optional<LidarFrame> first_;  // of a stretch: its event waits for the next frame
+  struct WaitingFrame {
+    LidarFrame frame;
+    bool deskew = false;
+  };
+  std::optional<WaitingFrame> first_;  // of a stretch: its event waits for the next frame
   struct {
     int frames = 0, with_scan = 0, begun = 0, coasted = 0, without_imu = 0;
   } counts_;

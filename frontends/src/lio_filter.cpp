@@ -87,10 +87,11 @@ void LioFilter::placePoints(const std::vector<MeasuredPoint>& points, const Free
   }
 }
 
-Vec3 LioFilter::place(const MeasuredPoint& point, const FreeFallScan& scan) const {
-  const double tau = point.age_s;
-  return state_.T_odom_body * scan.place(point.point_body, tau) +
-         tau * (0.5 * tau * state_.gravity_odom - state_.v_odom);
+const std::vector<PlacedPoint>& LioFilter::place(const std::vector<MeasuredPoint>& points,
+                                                 const FreeFallScan& scan, const Vec3& sensor_body,
+                                                 bool rigid) {
+  placePoints(points, scan, sensor_body, state_, rigid ? 0 : 1);
+  return placed_;
 }
 
 bool LioFilter::isLost() const {
@@ -98,14 +99,14 @@ bool LioFilter::isLost() const {
   return !(sigma < kLostSigma_m) || !state_.v_odom.allFinite();
 }
 
-LioUpdate LioFilter::update(const std::vector<MeasuredPoint>& points, const FreeFallScan& scan,
-                            const Vec3& sensor_body, const LocalVoxelMap& map, bool rigid) {
+std::size_t LioFilter::update(const std::vector<MeasuredPoint>& points, const FreeFallScan& scan,
+                              const Vec3& sensor_body, const LocalVoxelMap& map, bool rigid) {
   const double ageing = rigid ? 0 : 1;
   const double lever_m = lever(points);
   const double deviation = displacementSigma(covariance_, lever_m);
   const double gate = std::min(limits_.max_gate_m, 3 * deviation + kLeastGate);
   double widening = std::min(deviation, gate);
-  LioUpdate result;
+  bool converged = false;
   LioState x = state_;
   LioMatrix information = LioMatrix::Zero();
   LioVector gradient = LioVector::Zero();
@@ -114,12 +115,10 @@ LioUpdate LioFilter::update(const std::vector<MeasuredPoint>& points, const Free
   // variance would follow from the smallest error of the direction that is believed to be open.
   std::optional<InformativePart> informative;
   LioMatrix open = LioMatrix::Zero(), touched = covariance_;
-  for (int i = 0; i < limits_.max_iterations && !result.converged; ++i) {
+  for (int i = 0; i < limits_.max_iterations && !converged; ++i) {
     placePoints(points, scan, sensor_body, x, ageing);
     matches_.associate(placed_, map, gate);
-    result.iterations = i + 1;
-    result.matched = matches_.size();
-    if (matches_.size() < kMinRows) return result;
+    if (matches_.size() < kMinRows) return matches_.size();
     matches_.weigh(widening);
     PointToPlaneSums sums = matches_.sums(ageing);
     if (i == 0 || i == kLookAgain) {
@@ -134,10 +133,10 @@ LioUpdate LioFilter::update(const std::vector<MeasuredPoint>& points, const Free
     // (P^-1 + H) d = P^-1 (prior - x) - gradient, times P: no inverse of a covariance is needed.
     const LioMatrix system = LioMatrix::Identity() + touched * information;
     const LioVector step = system.partialPivLu().solve(boxminus(state_, x) - touched * gradient);
-    if (!step.allFinite()) return result;
+    if (!step.allFinite()) return matches_.size();
     x = boxplus(x, step);
-    result.converged = widening == 0 && step.segment<3>(lio::kPosition).norm() < kConvergedM &&
-                       step.segment<3>(lio::kRotation).norm() < kConvergedRad;
+    converged = widening == 0 && step.segment<3>(lio::kPosition).norm() < kConvergedM &&
+                step.segment<3>(lio::kRotation).norm() < kConvergedRad;
     widening = widening < kLeastWidening ? 0 : kNarrowing * widening;
   }
   const Eigen::PartialPivLU<LioMatrix> system(LioMatrix::Identity() + touched * information);
@@ -146,7 +145,7 @@ LioUpdate LioFilter::update(const std::vector<MeasuredPoint>& points, const Free
   covariance_ = 0.5 * (updated + updated.transpose());
   cross_ = (system.solve(cross_ - open * cross_) + open * cross_).eval();
   state_ = x;
-  return result;
+  return matches_.size();
 }
 
 // The step of an update has the covariance that the update takes away: its squared norm in that, a

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "paloc/core/stillness_detector.h"
+
 namespace paloc {
 namespace {
 
@@ -12,7 +14,6 @@ constexpr int kMotionSteps = 32;       // poses that stand for the motion in a s
 // What an IMU may feel at rest (standard deviations over a scan, mean rate), and how sure rest is.
 constexpr double kRestForce = 0.15, kRestRate = 0.02, kRestMeanRate = 0.03;  // m/s2, rad/s, rad/s
 constexpr double kRestSpeed = 0.1, kRestAcceleration = 0.03;                 // m/s, m/s2
-constexpr std::size_t kFewestAtRest = 8;
 // What a body may do where no IMU tells: white noise, as densities.
 constexpr double kUnknownForce = 1.5, kUnknownRate = 0.7;  // m/s2/sqrt(Hz), rad/s/sqrt(Hz)
 // How wrong is then what a scan tells, whose shape nothing corrects: as if half of it were turned
@@ -42,20 +43,15 @@ LioMatrix firstCovariance(const FastLioSettings& s, const LioState& x, bool at_r
 }
 
 // Whether the IMU feels nothing but gravity and its biases.
-bool isAtRest(const std::vector<ImuSample>& samples) {
-  if (samples.size() < kFewestAtRest) return false;
-  Vec3 force = Vec3::Zero(), rate = Vec3::Zero();
-  for (const ImuSample& s : samples) {
-    force += s.acc_body / static_cast<double>(samples.size());
-    rate += s.omega_body / static_cast<double>(samples.size());
-  }
-  double force_sq = 0, rate_sq = 0;
-  for (const ImuSample& s : samples) {
-    force_sq += (s.acc_body - force).squaredNorm() / static_cast<double>(samples.size());
-    rate_sq += (s.omega_body - rate).squaredNorm() / static_cast<double>(samples.size());
-  }
-  return force_sq < kRestForce * kRestForce && rate_sq < kRestRate * kRestRate &&
-         rate.norm() < kRestMeanRate;
+bool isAtRest(const ImuBuffer& imu, TimeNs start_ns, TimeNs end_ns) {
+  StillnessSettings settings;
+  settings.window_s = secondsBetween(start_ns, end_ns);
+  settings.max_force_deviation_mps2 = kRestForce;
+  settings.max_rate_deviation_radps = kRestRate;
+  settings.max_mean_rate_radps = kRestMeanRate;
+  StillnessDetector detector(settings);
+  for (const ImuSample& sample : imu.between(start_ns, end_ns)) detector.addImu(sample);
+  return detector.update(end_ns, Vec3::Zero());
 }
 
 // A body that moves evenly between two instants, as an IMU with the biases of the state feels it.
@@ -86,11 +82,11 @@ LioTracker::Outcome LioTracker::add(const LidarFrame& frame, const ImuBuffer& im
   predict(frame, imu);
   selectPoints(frame, has_times);
   if (!first_.points.empty()) startMoving();
-  const LioUpdate found = update();
+  const std::size_t matched = update();
   worst_imu_noise_ = std::max(worst_imu_noise_, std::sqrt(filter_.imuFactor()));
   if (!inertial_) filter_.blur(kBlindPosition, kBlindRotation, kBlindVelocity);
   const bool used =
-      static_cast<double>(found.matched) >= kLeastMatched * static_cast<double>(points_.size()) &&
+      static_cast<double>(matched) >= kLeastMatched * static_cast<double>(points_.size()) &&
       !points_.empty();
   StageScope stage(timer_, "map update");
   if (inertial_) addToMap(map_points_, scan_);
@@ -117,16 +113,10 @@ LioTracker::Outcome LioTracker::begin(const LidarFrame& frame, const ImuBuffer& 
   const Vec3 up_body = (mean->delta_R.transpose() * mean->delta_v).normalized();
   state.v_odom = Vec3::Zero();
   state.gravity_odom = -settings_.gravity_mps2 * (state.T_odom_body.rotation * up_body);
-  filter_.begin(
-      state, firstCovariance(settings_.fast_lio, state, isAtRest(imu.between(start_ns, end_ns))));
+  filter_.begin(state, firstCovariance(settings_.fast_lio, state, isAtRest(imu, start_ns, end_ns)));
   map_.clear();
   selectPoints(frame, has_times);
-  // With the distortion of the scan left in it: that of a velocity of zero, gravity included.
-  for (const MeasuredPoint& p : map_points_) {
-    const Vec3 lever = state.T_odom_body.rotation * scan_.fall->place(p.point_body, p.age_s);
-    map_.add(state.T_odom_body.position + lever, lever - sensor_body_);
-  }
-  map_.endScan(state.T_odom_body.position);
+  addToMap(map_points_, scan_, true);
   first_ = {scan_, state, map_points_};
   return Outcome::kBegun;
 }
@@ -174,16 +164,15 @@ void LioTracker::startMoving() {
   filter_.restart(moved);
 }
 
-LioUpdate LioTracker::update(bool rigid) {
+std::size_t LioTracker::update(bool rigid) {
   StageScope stage(timer_, "registration");
   return filter_.update(points_, *scan_.fall, sensor_body_, map_, rigid);
 }
 
-void LioTracker::addToMap(const std::vector<MeasuredPoint>& points, const KeptScan& scan) {
-  const Vec3 sensor_odom = filter_.state().T_odom_body * sensor_body_;
-  for (const MeasuredPoint& p : points) {
-    const Vec3 point = filter_.place(p, *scan.fall);
-    map_.add(point, point - sensor_odom);
+void LioTracker::addToMap(const std::vector<MeasuredPoint>& points, const KeptScan& scan,
+                          bool rigid) {
+  for (const PlacedPoint& p : filter_.place(points, *scan.fall, sensor_body_, rigid)) {
+    map_.add(p.point_odom, p.ray);
   }
   map_.endScan(filter_.state().T_odom_body.position);
 }

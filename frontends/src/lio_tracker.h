@@ -59,8 +59,8 @@ class LioTracker {
   Outcome begin(const LidarFrame& frame, const ImuBuffer& imu, bool has_times);
   void predict(const LidarFrame& frame, const ImuBuffer& imu);
   void startMoving();
-  LioUpdate update(bool rigid = false);
-  void addToMap(const std::vector<MeasuredPoint>& points, const KeptScan& scan);
+  std::size_t update(bool rigid = false);
+  void addToMap(const std::vector<MeasuredPoint>& points, const KeptScan& scan, bool rigid = false);
   void selectPoints(const LidarFrame& frame, bool has_times);
   static ScanMotion motionDuring(const KeptScan& scan, const LioState& state);
 

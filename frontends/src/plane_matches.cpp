@@ -64,7 +64,7 @@ double PlaneMatches::robustScale() {
   return std::max(kLeastScale, kMadToSigma * *middle);
 }
 
-double PlaneMatches::weigh(double widening_m) {
+void PlaneMatches::weigh(double widening_m) {
   const double scale = robustScale();
   for (Row& row : rows_) {
     const double variance = scale * scale * row.sigma * row.sigma;
@@ -72,7 +72,6 @@ double PlaneMatches::weigh(double widening_m) {
     const double root = 1 + row.point.residual * row.point.residual / width_sq;
     row.weight = 1 / (root * root * variance);
   }
-  return scale;
 }
 
 PointToPlaneSums PlaneMatches::sums(double ageing) const {

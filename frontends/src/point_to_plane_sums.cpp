@@ -28,8 +28,9 @@ void InformativePart::addOpen(const Vec9& direction) {
   open_.col(open_.cols() - 1) = rest.normalized();
 }
 
-void InformativePart::findOpen(const Mat9& information, const Mat9& noise, int at) {
-  const Mat3 n = noise.block<3, 3>(at, at) + floor_ * Mat3::Identity();
+// `floor` is added to the noise, so that it can be inverted.
+void InformativePart::findOpen(const Mat9& information, const Mat9& noise, int at, double floor) {
+  const Mat3 n = noise.block<3, 3>(at, at) + floor * Mat3::Identity();
   const Eigen::GeneralizedSelfAdjointEigenSolver<Mat3> solver(information.block<3, 3>(at, at), n);
   for (int i = 0; i < 3; ++i) {
     if (solver.eigenvalues()[i] >= kStandsOut) continue;
@@ -41,12 +42,12 @@ void InformativePart::findOpen(const Mat9& information, const Mat9& noise, int a
   }
 }
 
-InformativePart::InformativePart(const Mat9& information, const Mat9& noise)
-    : floor_(1e-9 * noise.diagonal().maxCoeff() + 1e-12) {
-  findOpen(information, noise, 0);
-  findOpen(information, noise, 3);
+InformativePart::InformativePart(const Mat9& information, const Mat9& noise) {
+  const double floor = 1e-9 * noise.diagonal().maxCoeff() + 1e-12;
+  findOpen(information, noise, 0, floor);
+  findOpen(information, noise, 3, floor);
   projector_ = Mat9::Identity() - open_ * open_.transpose();
-  const Mat9 n = projector_ * noise * projector_ + floor_ * Mat9::Identity();
+  const Mat9 n = projector_ * noise * projector_ + floor * Mat9::Identity();
   const Mat9 known = projector_ * information * projector_;
   const Eigen::GeneralizedSelfAdjointEigenSolver<Mat9> solver(known, n);
   const Mat9& v = solver.eigenvectors();  // v^T n v = 1

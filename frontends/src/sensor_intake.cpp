@@ -1,28 +1,17 @@
 #include "sensor_intake.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
 #include "paloc/frontends/imu_reader.h"
 #include "paloc/frontends/lidar_decoder.h"
-#include "paloc/frontends/mrpt_time.h"
+#include "sentence_parts.h"
 
 namespace paloc {
-namespace {
-
 std::string classNameOf(const mrpt::obs::CObservation& observation) {
   const std::string name = observation.GetRuntimeClass()->className;
   return name.substr(name.rfind(':') + 1);
 }
-
-std::string format(const char* pattern, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, pattern, value);
-  return text;
-}
-
-}  // namespace
 
 SensorIntake::SensorIntake(const FrontendSettings& settings)
     : settings_(settings),
@@ -53,7 +42,7 @@ void SensorIntake::addImu(const mrpt::obs::CObservationIMU& observation) {
   if (sample) problem = imu_order_.check(sample->t_ns);
   if (!problem.empty()) return skip(observation, problem);
   imu_samples_.add(*sample);
-  newest_ns_ = std::max(newest_ns_.value_or(sample->t_ns), sample->t_ns);
+  reached(sample->t_ns);
 }
 
 void SensorIntake::addLidar(const mrpt::obs::CObservation& observation) {
@@ -69,24 +58,37 @@ void SensorIntake::addLidar(const mrpt::obs::CObservation& observation) {
   }
   if (!problem.empty()) return skip(observation, problem);
   last_end_ns_ = frame->endNs();
-  newest_ns_ = std::max(newest_ns_.value_or(frame->stamp_ns), frame->stamp_ns);
+  reached(frame->stamp_ns);
   // Once for each way of reading: the duration varies a little from scan to scan.
   if (said_.insert("times of " + frame->label + ": " + frame->time_policy).second) {
     note("LiDAR '" + frame->label + "' (" + frame->class_name + "): " + frame->time_policy +
          (frame->duration_ns > 0
-              ? format(", %.1f ms a scan", static_cast<double>(frame->duration_ns) * 1e-6)
+              ? figure(", %.1f ms a scan", static_cast<double>(frame->duration_ns) * 1e-6)
               : ""));
   }
+  unused_.add(frame->class_name, frame->label, "points without a valid return",
+              frame->invalid_points);
   waiting_.push_back(std::move(*frame));
 }
 
-const LidarFrame* SensorIntake::readyScan() const {
+const LidarFrame* SensorIntake::readyScan(const std::function<bool(TimeNs)>& also_reaches) const {
   if (waiting_.empty()) return nullptr;
   const LidarFrame& frame = waiting_.front();
   const TimeNs end = frame.endNs();
   const bool imu = !imu_samples_.empty() && imu_samples_.newestNs() >= end;
   const bool late = secondsBetween(end, *newest_ns_) > settings_.max_wait_s;
-  return finished_ || imu || late ? &frame : nullptr;
+  return finished_ || late || (imu && also_reaches(end)) ? &frame : nullptr;
+}
+
+bool SensorIntake::canDeskew(const LidarFrame& frame) {
+  if (frame.deskewed || frame.duration_ns == 0) return false;
+  if (!settings_.deskew) {
+    note("scans are not deskewed, as the settings say");
+    return false;
+  }
+  if (!frame.dt_ns.empty()) return true;
+  unused_.add(frame.class_name, frame.label, "not deskewed: no time for each point");
+  return false;
 }
 
 void SensorIntake::popScan() {
@@ -105,14 +107,17 @@ void SensorIntake::note(const std::string& sentence) {
 
 std::vector<std::string> SensorIntake::takeNotes() { return std::exchange(notes_, {}); }
 
-void SensorIntake::noteAtEnd() {
+void SensorIntake::noteStreams() {
   note(lidar_.remark());
   note(imu_.remark());
+}
+
+void SensorIntake::noteImuGaps() {
   if (imu_samples_.gaps() == 0) return;
-  note("the IMU pauses for more than " + format("%g s ", settings_.max_imu_gap_s) +
-       std::to_string(imu_samples_.gaps()) + (imu_samples_.gaps() == 1 ? " time" : " times") +
-       format(", at most %.3f s", imu_samples_.longestGapS()) +
-       format(", at t = %.3f s", static_cast<double>(imu_samples_.longestGapNs()) * 1e-9));
+  note("the IMU pauses for more than " + figure("%g s ", settings_.max_imu_gap_s) +
+       timesInFigures(imu_samples_.gaps()) +
+       figure(", at most %.3f s", imu_samples_.longestGapS()) +
+       figure(", at t = %.3f s", static_cast<double>(imu_samples_.longestGapNs()) * 1e-9));
 }
 
 std::vector<std::string> SensorIntake::problems() const {

@@ -2,7 +2,9 @@
 
 #include <mrpt/obs/CObservationIMU.h>
 
+#include <algorithm>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -15,6 +17,9 @@
 #include "stream_choice.h"
 
 namespace paloc {
+
+/// The class of an observation, without its namespace.
+std::string classNameOf(const mrpt::obs::CObservation& observation);
 
 /// The LiDAR scans and IMU samples of a recording as a front-end takes them: of one stream each, in
 /// the order of their stamps; what is not taken is counted with its reason. Scans wait until the
@@ -29,12 +34,22 @@ class SensorIntake {
   bool finished() const { return finished_; }
 
   /// The oldest scan that waits, if it waits no longer; null if there is none. Valid until
-  /// popScan().
-  const LidarFrame* readyScan() const;
+  /// popScan(). `also_reaches` tells whether what else the scan waits for has come to its end.
+  const LidarFrame* readyScan(const std::function<bool(TimeNs)>& also_reaches = [](TimeNs) {
+    return true;
+  }) const;
   void popScan();
-  bool scansWait() const { return !waiting_.empty(); }
+
+  /// The recording has come to a time, by another stream.
+  void reached(TimeNs t_ns) { newest_ns_ = std::max(newest_ns_.value_or(t_ns), t_ns); }
 
   ImuQueue& imu() { return imu_samples_; }
+  const ImuQueue& imu() const { return imu_samples_; }
+  bool hasLidar() const { return lidar_.chosen(); }
+
+  /// Whether a scan is to be deskewed; counts or notes why it cannot be, though it should.
+  bool canDeskew(const LidarFrame& frame);
+
   /// Until when samples may be given out, where no scan waits: none is held longer than a scan
   /// could be late.
   std::optional<TimeNs> imuReleaseNs() const;
@@ -46,8 +61,9 @@ class SensorIntake {
   /// Keeps a sentence for the user, said once.
   void note(const std::string& sentence);
   std::vector<std::string> takeNotes();
-  /// What is known at the end: of several streams, gaps of the IMU.
-  void noteAtEnd();
+  // What is known at the end: of several streams of a kind, of pauses.
+  void noteStreams();
+  void noteImuGaps();
   std::vector<std::string> problems() const;
   /// Why there is no scan, where `used` is 0; else empty.
   std::string whyNoScan(int used) const;

@@ -18,4 +18,9 @@ inline std::string timesText(std::uint64_t count) {
   return count == 1 ? "once" : std::to_string(count) + " times";
 }
 
+/// "1 time", "7 times": where more figures follow.
+inline std::string timesInFigures(int count) {
+  return std::to_string(count) + (count == 1 ? " time" : " times");
+}
+
 }  // namespace paloc

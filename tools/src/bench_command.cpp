@@ -1,16 +1,8 @@
-#include <iostream>
-
 #include "bench_commands.h"
-#include "paloc/core/errors.h"
 #include "paloc/tools/command_group.h"
 #include "paloc/tools/commands.h"
 
 namespace paloc {
-
-void printResult(const std::string& result) {
-  std::cout << result << std::flush;
-  if (!std::cout) throw IoError("the result could not be written to standard output");
-}
 
 std::unique_ptr<Command> makeBenchCommand() {
   std::vector<std::unique_ptr<Command>> commands;

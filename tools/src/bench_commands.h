@@ -1,9 +1,9 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 #include "paloc/tools/command.h"
+#include "paloc/tools/print_result.h"
 
 namespace paloc {
 
@@ -16,8 +16,5 @@ std::unique_ptr<Command> makeBenchFrontendsCommand();
 std::unique_ptr<Command> makeBenchRegistrationCommand();
 std::unique_ptr<Command> makeBenchSmootherCommand();
 std::unique_ptr<Command> makeBenchStartCommand();
-
-/// Prints to standard output; throws IoError where that fails.
-void printResult(const std::string& result);
 
 }  // namespace paloc

@@ -1,25 +1,22 @@
 #include "paloc/tools/bench_corridor.h"
 
-#include <tbb/parallel_for.h>
-
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "paloc/core/mrpt_pose.h"
 #include "paloc/core/trajectory_generator.h"
-#include "paloc/frontends/mrpt_time.h"
 #include "paloc/frontends/odometry_frontend.h"
 #include "paloc/map/scan_matcher.h"
+#include "paloc/tools/simulated_observations.h"
 #include "paloc/tools/synth_scene.h"
 #include "paloc/tools/synth_timeline.h"
-#include "timeline_feed.h"
 
 namespace paloc {
 namespace {
 
 using synth::kCorridorMouthM;
 
-constexpr std::size_t kScansAtOnce = 8;
 constexpr double kInRoomsM = 13;  // of the way, before and after the corridor
 constexpr double kSpeedMps = 1.05, kStartAndEndS = 6, kPauseS = 4.2, kPauseEveryS = 60;
 
@@ -85,60 +82,25 @@ class Walker {
   CorridorRun run_;
 };
 
-/// The recording that nobody stores: observations in order of their stamps, through the front-end
-/// into both estimators.
-class Recording {
- public:
-  Recording(const synth::Timeline& timeline, const FrontendSettings& settings,
-            std::array<Walker*, 2> walkers)
-      : timeline_(timeline),
-        motion_(timeline),
-        frontend_(OdometryFrontend::create("recorded", settings)),
-        walkers_(walkers) {}
-
-  void add(const obs::CObservationLidarScan& scan) {
-    addMotionUntil(fromMrptTime(scan.timestamp));
-    feed(scan);
-  }
-  void finish() {
-    addMotionUntil(std::numeric_limits<TimeNs>::max());
-    frontend_->finish();
-    drain();
-  }
-
- private:
-  void addMotionUntil(TimeNs end_ns) {
-    motion_.until(end_ns, [&](const auto& observation) { feed(observation); });
-  }
-  void feed(const mrpt::obs::CObservation& observation) {
-    frontend_->add(observation);
-    drain();
-  }
-  void drain() {
-    while (const auto event = frontend_->next()) {
-      for (Walker* walker : walkers_) walker->add(*event, timeline_.motion);
+/// Puts a recording that nobody stores through the front-end and into both estimators.
+void walkThrough(const synth::Timeline& timeline, const synth::LidarSimulator& lidar,
+                 const FrontendSettings& settings, const std::array<Walker*, 2>& walkers,
+                 const BenchCorridorProgress& progress) {
+  const auto frontend = OdometryFrontend::create("recorded", settings);
+  const auto drain = [&] {
+    while (const auto event = frontend->next()) {
+      for (Walker* walker : walkers) walker->add(*event, timeline.motion);
     }
-  }
-
-  const synth::Timeline& timeline_;
-  synth::TimelineFeed motion_;
-  OdometryFrontend::Ptr frontend_;
-  std::array<Walker*, 2> walkers_;
-};
-
-// Some scans at a time, on all threads.
-void recordScans(const synth::Timeline& timeline, const synth::LidarSimulator& lidar,
-                 Recording& recording, const BenchCorridorProgress& progress) {
-  std::vector<obs::CObservationLidarScan::Ptr> scans(kScansAtOnce);
-  for (std::size_t first = 0; first < timeline.scans; first += kScansAtOnce) {
-    const std::size_t count = std::min(kScansAtOnce, timeline.scans - first);
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-      scans[i] = lidar.scan(first + i, timeline.scanStart(first + i));
-    });
-    for (std::size_t i = 0; i < count; ++i) recording.add(*scans[i]);
-    progress(static_cast<double>(first + count) / static_cast<double>(timeline.scans));
-  }
-  recording.finish();
+  };
+  synth::simulateObservations(
+      timeline, lidar,
+      [&](const mrpt::obs::CObservation& observation) {
+        frontend->add(observation);
+        drain();
+      },
+      progress);
+  frontend->finish();
+  drain();
 }
 
 std::vector<Pose> posesOf(const std::vector<StampedPose>& stamped) {
@@ -176,8 +138,7 @@ BenchCorridorResult benchCorridor(const BenchCorridorSettings& settings, const C
       odometryDrift(posesOf(timeline.truth), posesOf(timeline.odometry), result.stretch);
   const Pose start = timeline.truth.front().pose;
   Walker handled(noisy, true, map, start), unhandled(noisy, false, map, start);
-  Recording recording(timeline, noisy.frontend, {&handled, &unhandled});
-  recordScans(timeline, lidar, recording, progress);
+  walkThrough(timeline, lidar, frontendSettingsOf(noisy), {&handled, &unhandled}, progress);
   result.handled = handled.finish(timeline.motion, result.stretch);
   result.unhandled = unhandled.finish(timeline.motion, result.stretch);
   return result;

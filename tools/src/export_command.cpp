@@ -1,12 +1,11 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "paloc/core/errors.h"
 #include "paloc/tools/command_group.h"
 #include "paloc/tools/commands.h"
 #include "paloc/tools/export_rosbag.h"
+#include "paloc/tools/print_result.h"
 #include "paloc/tools/progress_line.h"
 
 namespace paloc {
@@ -43,13 +42,7 @@ class ExportRosbagCommand : public Command {
       progress_.show(line);
     });
     progress_.finish();
-    if (json_) {
-      std::cout << jsonOf(summary).dump(2) << '\n';
-    } else {
-      std::cout << tableOf(summary);
-    }
-    std::cout.flush();
-    if (!std::cout) throw IoError("the summary could not be written to standard output");
+    printResult(json_ ? jsonOf(summary).dump(2) + '\n' : tableOf(summary));
     return summary.complete() ? ExitCode::kGood : ExitCode::kDegraded;
   }
 

@@ -8,7 +8,6 @@
 #include "paloc/core/text.h"
 #include "paloc/map/cloud_io.h"
 #include "paloc/tools/imu_csv.h"
-#include "paloc/tools/quantile.h"
 #include "paloc/tools/result_folder.h"
 
 namespace paloc {
@@ -57,14 +56,10 @@ std::vector<ScanEntry> presentScans(const ImportCloudsSettings& settings, Import
   return present;
 }
 
-double medianPeriod(const std::vector<ScanEntry>& scans) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < scans.size(); ++i) {
-    const double step = secondsBetween(scans[i - 1].stamp_ns, scans[i].stamp_ns);
-    if (step > 0) steps.push_back(step);
-  }
-  constexpr double kUsual = 0.1;
-  return steps.empty() ? kUsual : quantile(std::move(steps), 0.5);
+std::vector<TimeNs> stampsOf(const std::vector<ScanEntry>& scans) {
+  std::vector<TimeNs> stamps;
+  for (const ScanEntry& scan : scans) stamps.push_back(scan.stamp_ns);
+  return stamps;
 }
 
 // Looks into some scans, evenly spread, and decides how times and intensities are to be read.
@@ -96,8 +91,8 @@ void decideReading(const std::vector<ScanEntry>& scans, const ImportCloudsSettin
     summary.notes.emplace_back("intensities lie between 0 and 1: multiplied by 255");
   }
   if (!samples.empty()) {
-    how.times =
-        decidePointTimes(samples, medianPeriod(scans), settings.time_unit, settings.time_reference);
+    how.times = decidePointTimes(samples, scanPeriod(stampsOf(scans)), settings.time_unit,
+                                 settings.time_reference);
     summary.notes.push_back(how.times->sentence);
   }
 }

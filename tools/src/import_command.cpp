@@ -1,15 +1,16 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "paloc/core/errors.h"
+#include "paloc/core/text.h"
 #include "paloc/tools/commands.h"
 #include "paloc/tools/import_clouds.h"
 #include "paloc/tools/import_kitti.h"
 #include "paloc/tools/import_rosbag.h"
 #include "paloc/tools/parse_pose.h"
+#include "paloc/tools/print_result.h"
 #include "paloc/tools/progress_line.h"
 
 namespace paloc {
@@ -71,13 +72,7 @@ class ImportCommand : public Command {
                                   : kitti_command_->parsed() ? runKitti()
                                                              : runRosbag();
     progress_.finish();
-    if (json_) {
-      std::cout << jsonOf(summary).dump(2) << '\n';
-    } else {
-      std::cout << tableOf(summary);
-    }
-    std::cout.flush();
-    if (!std::cout) throw IoError("the summary could not be written to standard output");
+    printResult(json_ ? jsonOf(summary).dump(2) + '\n' : tableOf(summary));
     return summary.complete() ? ExitCode::kGood : ExitCode::kDegraded;
   }
 
@@ -176,19 +171,13 @@ class ImportCommand : public Command {
 
   ExitCode listTopics() {
     const auto topics = RosbagReader(rosbag_.bags).topics();
-    if (json_) {
-      auto rows = nlohmann::json::array();
-      for (const auto& t : topics) {
-        rows.push_back({{"topic", t.name}, {"type", t.type}, {"messages", t.messages}});
-      }
-      std::cout << nlohmann::json{{"topics", rows}}.dump(2) << '\n';
-    } else {
-      for (const auto& t : topics) {
-        std::cout << t.name << "  " << t.type << "  " << t.messages << '\n';
-      }
+    auto rows = nlohmann::json::array();
+    std::string lines;
+    for (const auto& t : topics) {
+      rows.push_back({{"topic", t.name}, {"type", t.type}, {"messages", t.messages}});
+      lines += text(t.name, "  ", t.type, "  ", t.messages, '\n');
     }
-    std::cout.flush();
-    if (!std::cout) throw IoError("the topics could not be written to standard output");
+    printResult(json_ ? nlohmann::json{{"topics", rows}}.dump(2) + '\n' : lines);
     return ExitCode::kGood;
   }
 

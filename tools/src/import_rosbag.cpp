@@ -6,7 +6,6 @@
 #include "paloc/core/errors.h"
 #include "paloc/core/mrpt_pose.h"
 #include "paloc/core/text.h"
-#include "paloc/tools/quantile.h"
 #include "paloc/tools/result_folder.h"
 #include "paloc/tools/ros_cloud.h"
 #include "paloc/tools/static_transforms.h"
@@ -111,8 +110,8 @@ class BagContents {
     const bool spread =
         std::any_of(samples_.begin(), samples_.end(), [](const auto& s) { return s.max > s.min; });
     if (spread) {
-      rule_ =
-          decidePointTimes(samples_, medianPeriod(), settings_.time_unit, settings_.time_reference);
+      rule_ = decidePointTimes(samples_, scanPeriod(stamps()), settings_.time_unit,
+                               settings_.time_reference);
       summary_.notes.push_back(rule_->sentence);
       how.times = PointTimeRule{TimeUnit::kNanoseconds, TimeReference::kStamp, rule_->sentence};
     } else {
@@ -201,14 +200,10 @@ class BagContents {
     return readPointTimes(*rule_, values, header_ns, header_ns);
   }
 
-  double medianPeriod() const {
-    std::vector<double> steps;
-    for (std::size_t i = 1; i < scans_.size(); ++i) {
-      const double step = secondsBetween(scans_[i - 1].header_ns, scans_[i].header_ns);
-      if (step > 0) steps.push_back(step);
-    }
-    constexpr double kUsual = 0.1;
-    return steps.empty() ? kUsual : quantile(std::move(steps), 0.5);
+  std::vector<TimeNs> stamps() const {
+    std::vector<TimeNs> result;
+    for (const FoundScan& scan : scans_) result.push_back(scan.header_ns);
+    return result;
   }
 
   Pose placeOf(const std::string& what, const std::string& body, const std::string& frame) {

@@ -92,6 +92,16 @@ TimeReference decideReference(const std::vector<PointTimeSample>& samples, doubl
 
 }  // namespace
 
+double scanPeriod(const std::vector<TimeNs>& stamps) {
+  std::vector<double> steps_s;
+  for (std::size_t i = 1; i < stamps.size(); ++i) {
+    const double step_s = secondsBetween(stamps[i - 1], stamps[i]);
+    if (step_s > 0) steps_s.push_back(step_s);
+  }
+  constexpr double kUsual_s = 0.1;
+  return steps_s.empty() ? kUsual_s : quantile(std::move(steps_s), 0.5);
+}
+
 PointTimeRule decidePointTimes(const std::vector<PointTimeSample>& samples, double period_s,
                                std::optional<TimeUnit> unit,
                                std::optional<TimeReference> reference) {

@@ -15,13 +15,6 @@ struct MeasuredPoint {
   double age_s = 0;                ///< how long before the end of the scan that was
 };
 
-/// What an update with a scan found.
-struct LioUpdate {
-  std::size_t matched = 0;  ///< points with a plane within the gate, at the end
-  int iterations = 0;
-  bool converged = false;
-};
-
 /// The iterated error-state Kalman filter of FAST-LIO2 (W. Xu et al., 2022, section V): state and
 /// covariance, predicted with the IMU, updated with the points of a scan against planes of a local
 /// map. What differs: a point moves with the velocity at the scan's end as well (see FreeFallScan),
@@ -53,16 +46,18 @@ class PALOC_EXPORT LioFilter {
   bool isLost() const;
 
   /// Updates with a scan. `rigid`: the scan's distortion is left as it is, by a velocity of zero:
-  /// where the map's is the same.
-  LioUpdate update(const std::vector<MeasuredPoint>& points, const FreeFallScan& scan,
-                   const Vec3& sensor_body, const LocalVoxelMap& map, bool rigid = false);
+  /// where the map's is the same. Returns how many points have a plane within the gate, at the end.
+  std::size_t update(const std::vector<MeasuredPoint>& points, const FreeFallScan& scan,
+                     const Vec3& sensor_body, const LocalVoxelMap& map, bool rigid = false);
 
   /// Adds errors of these standard deviations (m, rad, m/s) to the state: of a scan that could not
   /// be undistorted.
   void blur(double position_m, double rotation_rad, double velocity_mps);
 
-  /// Where the state puts a point that was measured during the scan (m, odom frame).
-  Vec3 place(const MeasuredPoint& point, const FreeFallScan& scan) const;
+  /// Where the state puts the points of a scan; `rigid` as above. Valid until the next call.
+  const std::vector<PlacedPoint>& place(const std::vector<MeasuredPoint>& points,
+                                        const FreeFallScan& scan, const Vec3& sensor_body,
+                                        bool rigid = false);
 
   /// Covariance of the motion T_0^-1 T_1 since the prediction, in the tangent space [position in
   /// body frame 0 (m), rotation on the right (rad)], T_0 as it was estimated then: errors that both

@@ -30,9 +30,9 @@ class PALOC_EXPORT PlaneMatches {
   std::size_t size() const { return rows_.size(); }
 
   /// Sets the weights, 1 / variance times that of the kernel of Geman and McClure. `widening_m` is
-  /// added to the kernel's width: at first, while the pose is not sure. Returns the scale of the
-  /// residuals in units of their expected standard deviation, by which variances are multiplied.
-  double weigh(double widening_m);
+  /// added to the kernel's width: at first, while the pose is not sure. Variances are multiplied
+  /// by that of the residuals, robustly told, in units of what is expected of them.
+  void weigh(double widening_m);
 
   /// Normal equations of all rows (see jacobianOf for `ageing`).
   PointToPlaneSums sums(double ageing) const;

@@ -69,9 +69,8 @@ class PALOC_EXPORT InformativePart {
 
  private:
   void addOpen(const Vec9& direction);
-  void findOpen(const Mat9& information, const Mat9& noise, int at);
+  void findOpen(const Mat9& information, const Mat9& noise, int at, double floor);
 
-  double floor_;  // of the noise, so that it can be inverted
   NullDirections open_{9, 0};
   Mat9 projector_;  // on what is known of single blocks
   Mat9 root_;       // of the scaling, applied from both sides

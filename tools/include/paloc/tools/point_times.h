@@ -31,6 +31,9 @@ struct PointTimeRule {
   std::string sentence;  ///< what was decided and why
 };
 
+/// The usual time from scan to scan (s): the median step, where stamps go on; 0.1 if none does.
+double scanPeriod(const std::vector<TimeNs>& stamps);
+
 /// Decides by the length of the scans against `period_s`, the time from scan to scan (a factor of
 /// a thousand lies between two units), and by where the values lie against the stamps. What is
 /// given is not decided. Throws IoError if the values fit nothing.
