@@ -11,6 +11,7 @@ endforeach()
 
 install(FILES ${PROJECT_SOURCE_DIR}/config/default.yaml DESTINATION ${PALOC_SHARE_DIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/config/sensors DESTINATION ${PALOC_SHARE_DIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/frontends/example DESTINATION ${PALOC_SHARE_DIR})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/third_party_notes.md
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
 # The program looks for its presets in ../share/paloc, in the build folder as in an installation.

@@ -11,9 +11,9 @@ namespace {
 
 std::vector<Setting> buildTable() {
   std::vector<Setting> table;
-  for (auto section : {frontendSettings, fastLioSettings, imuSettings, mapSettings, matcherSettings,
-                       smootherSettings, stillnessSettings, estimatorSettings, occupancySettings,
-                       changeSettings}) {
+  for (auto section : {frontendSettings, localMapSettings, fastLioSettings, icpSettings,
+                       lioSamSettings, imuSettings, mapSettings, matcherSettings, smootherSettings,
+                       stillnessSettings, estimatorSettings, occupancySettings, changeSettings}) {
     for (Setting& row : section()) table.push_back(std::move(row));
   }
   return table;

@@ -4,7 +4,7 @@
 
 namespace paloc {
 
-LocalVoxelMap::LocalVoxelMap(const LocalMapLimits& limits) : limits_(limits) {
+LocalVoxelMap::LocalVoxelMap(const LocalMapSettings& limits) : limits_(limits) {
   double edge_m = limits.voxel_m;
   for (int i = 0; i < std::max(limits.levels, 1); ++i) {
     levels_.emplace_back(edge_m);
@@ -18,8 +18,10 @@ bool LocalVoxelMap::add(const Vec3& point, const Vec3& ray) {
   return taken;
 }
 
-bool LocalVoxelMap::find(const Vec3& point, const Vec3& ray, LocalPlane& plane) const {
+bool LocalVoxelMap::find(const Vec3& point, const Vec3& ray, LocalPlane& plane,
+                         double least_voxel_m) const {
   for (const PlaneVoxels& level : levels_) {
+    if (level.edge() < least_voxel_m && &level != &levels_.back()) continue;
     if (level.find(point, ray, plane)) return true;
   }
   return false;
@@ -27,9 +29,10 @@ bool LocalVoxelMap::find(const Vec3& point, const Vec3& ray, LocalPlane& plane) 
 
 void LocalVoxelMap::endScan(const Vec3& around) {
   ++now_;
+  const auto max_voxels = static_cast<std::size_t>(limits_.max_voxels);
   for (PlaneVoxels& level : levels_) {
-    if (level.size() > limits_.max_voxels) {
-      level.forget(around, limits_.max_distance_m, limits_.max_voxels);
+    if (level.size() > max_voxels) {
+      level.forget(around, limits_.max_distance_m, max_voxels);
     }
   }
 }

@@ -3,7 +3,9 @@
 #include <map>
 #include <mutex>
 
-#include "fast_lio_odometry.h"
+#include "icp_tracker.h"
+#include "lio_sam_tracker.h"
+#include "lio_tracker.h"
 #include "paloc/core/errors.h"
 #include "recorded_odometry.h"
 
@@ -18,8 +20,15 @@ struct Registry {
     factories["recorded"] = [](const FrontendSettings& settings) {
       return std::make_unique<RecordedOdometry>(settings);
     };
-    factories["fast_lio"] = [](const FrontendSettings& settings) {
-      return std::make_unique<FastLioOdometry>(settings);
+    addTracked<LioTracker>("fast_lio");
+    addTracked<IcpTracker>("icp");
+    addTracked<LioSamTracker>("lio_sam");
+  }
+
+  template <class Tracker>
+  void addTracked(const std::string& name) {
+    factories[name] = [name](const FrontendSettings& settings) {
+      return makeTrackedOdometry(name, std::make_unique<Tracker>(settings), settings);
     };
   }
 };

@@ -18,17 +18,17 @@ constexpr double kUsualPoints = 30;    // that the usual thickness counts for
 }  // namespace
 
 void PlaneMatches::associate(std::span<const PlacedPoint> points, const LocalVoxelMap& map,
-                             double gate_m) {
+                             double gate_m, double least_voxel_m) {
   rows_.clear();
   LocalPlane plane;
   for (const PlacedPoint& p : points) {
-    if (!map.find(p.point_odom, p.ray, plane)) continue;
+    if (!map.find(p.point_odom, p.ray, plane, least_voxel_m)) continue;
     if (plane.leverFactor(p.point_odom) > kMaxLeverFactor) continue;
     const double residual = plane.height(p.point_odom);
     if (std::abs(residual) > gate_m) continue;
     const double across = plane.normal.dot(p.ray);
     if (across * across < kMinIncidenceCosine * kMinIncidenceCosine * p.ray.squaredNorm()) continue;
-    rows_.push_back({{plane.normal, p.lever, p.age_s, residual},
+    rows_.push_back({{plane.normal, p.lever, p.age_s, p.sag_s2, residual},
                      plane.thickness_m,
                      plane.width_m,
                      static_cast<double>(plane.points)});
@@ -74,18 +74,25 @@ void PlaneMatches::weigh(double widening_m) {
   }
 }
 
-PointToPlaneSums PlaneMatches::sums(double ageing) const {
-  PointToPlaneSums sums;
+template <int N>
+PointToPlaneSums<N> PlaneMatches::sums(double ageing) const {
+  PointToPlaneSums<N> sums;
   for (const Row& row : rows_) sums.add(row.point, row.weight, ageing);
   return sums;
 }
 
-Mat9 PlaneMatches::normalNoise(double ageing) const {
-  PointToPlaneSums noise;
+template <int N>
+Eigen::Matrix<double, N, N> PlaneMatches::normalNoise(double ageing) const {
+  PointToPlaneSums<N> noise;
   for (const Row& row : rows_) {
     noise.addNormalNoise(row.point, row.weight, row.normal_variance, ageing);
   }
   return noise.information;
 }
+
+template PALOC_EXPORT PointToPlaneSums<9> PlaneMatches::sums<9>(double) const;
+template PALOC_EXPORT PointToPlaneSums<18> PlaneMatches::sums<18>(double) const;
+template PALOC_EXPORT Eigen::Matrix<double, 9, 9> PlaneMatches::normalNoise<9>(double) const;
+template PALOC_EXPORT Eigen::Matrix<double, 18, 18> PlaneMatches::normalNoise<18>(double) const;
 
 }  // namespace paloc

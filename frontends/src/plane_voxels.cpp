@@ -4,15 +4,13 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <optional>
+
+#include "voxel_key.h"
 
 namespace paloc {
 namespace {
 
-constexpr int kBits = 21;  // an axis; the 64th bit tells the side
-constexpr double kLimit = 1 << (kBits - 1);
-constexpr std::uint64_t kAxisMask = (std::uint64_t{1} << kBits) - 1;
-constexpr std::uint64_t kBehind = std::uint64_t{1} << 63;
+constexpr std::uint64_t kBehind = std::uint64_t{1} << 63;  // the free bit of a voxel's key
 constexpr std::uint32_t kNone = 0xffffffff;
 constexpr std::size_t kFewestSlots = 1 << 12;
 
@@ -24,16 +22,6 @@ constexpr double kMinWidthToLength = 0.15;    // below: a line, whose normal is 
 constexpr double kMaxNormalSigma = 0.05;      // rad
 constexpr double kBehindCosine = 0.17;        // seen from behind, and not merely along it
 
-std::optional<std::uint64_t> keyOf(const Vec3& point, double edge_m) {
-  std::uint64_t key = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double index = std::floor(point[axis] / edge_m) + kLimit;
-    if (!(index >= 0 && index < 2 * kLimit)) return std::nullopt;
-    key = key << kBits | static_cast<std::uint64_t>(index);
-  }
-  return key;
-}
-
 // Fibonacci hashing, for tables whose size is a power of two.
 std::size_t hashOf(std::uint64_t key) {
   key ^= key >> 32;
@@ -42,13 +30,6 @@ std::size_t hashOf(std::uint64_t key) {
 }
 
 }  // namespace
-
-Vec3 PlaneVoxels::centre(std::uint64_t key) const {
-  const auto along = [&](int shift) {
-    return (static_cast<double>(key >> shift & kAxisMask) - kLimit + 0.5) * edge_m_;
-  };
-  return {along(2 * kBits), along(kBits), along(0)};
-}
 
 std::uint32_t PlaneVoxels::lookUp(std::uint64_t key) const {
   if (slots_.empty()) return kNone;
@@ -83,7 +64,7 @@ void PlaneVoxels::rebuildSlots(std::size_t count) {
 }
 
 bool PlaneVoxels::add(const Vec3& point, const Vec3& ray, std::uint32_t now) {
-  const auto key = keyOf(point, edge_m_);
+  const auto key = voxelKeyOf(point, edge_m_);
   if (!key) return false;
   std::uint32_t index = lookUpOrMake(*key);
   cells_[index].seen = now;
@@ -97,7 +78,7 @@ bool PlaneVoxels::add(const Vec3& point, const Vec3& ray, std::uint32_t now) {
   }
   Cell& cell = cells_[index];
   if (cell.points >= kMostPoints) return true;
-  const Eigen::Vector3f p = (point - centre(*key)).cast<float>();
+  const Eigen::Vector3f p = (point - voxelCentre(*key, edge_m_)).cast<float>();
   const float share = 1 / static_cast<float>(++cell.points);
   Eigen::Map<Eigen::Vector3f> mean(cell.mean.data());
   const Eigen::Vector3f before = p - mean;
@@ -147,7 +128,7 @@ void PlaneVoxels::fit(std::uint32_t index, const Vec3& ray) {
 }
 
 bool PlaneVoxels::find(const Vec3& point, const Vec3& ray, LocalPlane& found) const {
-  const auto key = keyOf(point, edge_m_);
+  const auto key = voxelKeyOf(point, edge_m_);
   if (!key) return false;
   for (const std::uint64_t side : {std::uint64_t{0}, kBehind}) {
     const std::uint32_t index = lookUp(*key | side);
@@ -156,7 +137,7 @@ bool PlaneVoxels::find(const Vec3& point, const Vec3& ray, LocalPlane& found) co
     if (plane.thickness < 0) return false;
     found.normal = Vec3(plane.nx, plane.ny, plane.nz);
     if (found.normal.dot(ray) >= 0) continue;
-    found.centroid = centre(*key) + Vec3(plane.cx, plane.cy, plane.cz);
+    found.centroid = voxelCentre(*key, edge_m_) + Vec3(plane.cx, plane.cy, plane.cz);
     found.thickness_m = static_cast<double>(plane.thickness);
     found.width_m = static_cast<double>(plane.width);
     found.points = static_cast<int>(cells_[index].fitted);
@@ -169,7 +150,8 @@ void PlaneVoxels::forget(const Vec3& around, double max_distance_m, std::size_t 
   std::vector<bool> kept(cells_.size());
   std::vector<std::uint32_t> seen;
   for (std::size_t i = 0; i < cells_.size(); ++i) {
-    kept[i] = (centre(cells_[i].key) - around).squaredNorm() <= max_distance_m * max_distance_m;
+    kept[i] = (voxelCentre(cells_[i].key, edge_m_) - around).squaredNorm() <=
+              max_distance_m * max_distance_m;
     if (kept[i]) seen.push_back(cells_[i].seen);
   }
   if (seen.size() > max_voxels) {

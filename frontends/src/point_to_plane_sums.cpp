@@ -1,6 +1,7 @@
 #include "paloc/frontends/point_to_plane_sums.h"
 
 #include <Eigen/Eigenvalues>
+#include <array>
 #include <cmath>
 
 namespace paloc {
@@ -10,57 +11,101 @@ constexpr double kStandsOut = 10;  // information over that of noise, below: not
 
 }  // namespace
 
-// G^T (1 - n n^T) G = G^T G - j j^T, with G = [1, -hat(lever), -tau].
-void PointToPlaneSums::addNormalNoise(const PointToPlane& row, double weight,
-                                      double normal_variance, double ageing) {
-  const double w = weight * normal_variance;
-  Eigen::Matrix<double, 3, 9> G;
-  G << Mat3::Identity(), -so3::hat(row.lever), -ageing * row.age_s * Mat3::Identity();
-  const Vec9 j = jacobianOf(row, ageing);
-  information.noalias() += w * (G.transpose() * G);
-  information.noalias() -= (w * j) * j.transpose();
+// With G = [B, -tau B, -s B], B = [1, -hat(lever)], of which the velocity's columns may be fewer:
+// G^T (1 - n n^T) G is made of multiples of B^T B - j j^T, j the first six of jacobianOf().
+template <int N>
+void PointToPlaneSums<N>::addNormalNoise(const PointToPlane& row, double weight,
+                                         double normal_variance, double ageing) {
+  Eigen::Matrix<double, 3, 6> B;
+  B << Mat3::Identity(), -so3::hat(row.lever);
+  const Vec6 j = jacobianOf<N>(row, ageing).template head<6>();
+  addMultiples(weight * normal_variance * (B.transpose() * B - j * j.transpose()), row, ageing);
 }
 
-void InformativePart::addOpen(const Vec9& direction) {
-  const Vec9 rest = direction - open_ * (open_.transpose() * direction).eval();
-  if (open_.cols() == 9 || !(rest.norm() > 1e-6)) return;
+template <int N>
+void PointToPlaneSums<N>::add(const PointToPlane& row, double weight, double ageing) {
+  const Vector j = jacobianOf<N>(row, ageing);
+  const Vec6 first = j.template head<6>();
+  addMultiples((weight * first) * first.transpose(), row, ageing);
+  gradient += (weight * row.residual) * j;
+}
+
+// The information of position and rotation, and that of their derivatives.
+template <int N>
+void PointToPlaneSums<N>::addMultiples(const Mat6& of_pose, const PointToPlane& row,
+                                       double ageing) {
+  const double of_velocity = -ageing * row.age_s, of_bend = -ageing * row.sag_s2;
+  information.template topLeftCorner<6, 6>() += of_pose;
+  if constexpr (N == 9) {
+    information.template topRightCorner<6, 3>() += of_velocity * of_pose.leftCols<3>();
+    information.template bottomLeftCorner<3, 6>() += of_velocity * of_pose.topRows<3>();
+    information.template bottomRightCorner<3, 3>() +=
+        of_velocity * of_velocity * of_pose.topLeftCorner<3, 3>();
+  } else {
+    const std::array<double, 3> factors{1, of_velocity, of_bend};
+    for (int a = 0; a < 3; ++a) {
+      for (int b = 0; b < 3; ++b) {
+        if (a + b == 0) continue;
+        information.template block<6, 6>(6 * a, 6 * b) +=
+            factors[static_cast<std::size_t>(a)] * factors[static_cast<std::size_t>(b)] * of_pose;
+      }
+    }
+  }
+}
+
+template <int N>
+void InformativePart<N>::addOpen(const Vector& direction) {
+  const Vector rest = direction - open_ * (open_.transpose() * direction).eval();
+  if (open_.cols() == N || !(rest.norm() > 1e-6)) return;
   open_.conservativeResize(Eigen::NoChange, open_.cols() + 1);
   open_.col(open_.cols() - 1) = rest.normalized();
 }
 
 // `floor` is added to the noise, so that it can be inverted.
-void InformativePart::findOpen(const Mat9& information, const Mat9& noise, int at, double floor) {
-  const Mat3 n = noise.block<3, 3>(at, at) + floor * Mat3::Identity();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Mat3> solver(information.block<3, 3>(at, at), n);
+template <int N>
+void InformativePart<N>::findOpen(const Matrix& information, const Matrix& noise, int at,
+                                  double floor) {
+  const Mat3 n = noise.template block<3, 3>(at, at) + floor * Mat3::Identity();
+  const Mat3 known = information.template block<3, 3>(at, at);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Mat3> solver(known, n);
   for (int i = 0; i < 3; ++i) {
     if (solver.eigenvalues()[i] >= kStandsOut) continue;
-    Vec9 direction = Vec9::Zero();
-    direction.segment<3>(at) = solver.eigenvectors().col(i).normalized();
-    addOpen(direction);
+    const Vec3 axis = solver.eigenvectors().col(i).normalized();
     // A scan that does not see a displacement does not see the velocity along it either.
-    if (at == 0) addOpen((Vec9() << Vec6::Zero(), direction.head<3>()).finished());
+    for (int derivative = at; derivative + 3 <= N; derivative += 6) {
+      Vector direction = Vector::Zero();
+      direction.template segment<3>(derivative) = axis;
+      addOpen(direction);
+    }
   }
 }
 
-InformativePart::InformativePart(const Mat9& information, const Mat9& noise) {
+template <int N>
+InformativePart<N>::InformativePart(const Matrix& information, const Matrix& noise) {
   const double floor = 1e-9 * noise.diagonal().maxCoeff() + 1e-12;
   findOpen(information, noise, 0, floor);
   findOpen(information, noise, 3, floor);
-  projector_ = Mat9::Identity() - open_ * open_.transpose();
-  const Mat9 n = projector_ * noise * projector_ + floor * Mat9::Identity();
-  const Mat9 known = projector_ * information * projector_;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Mat9> solver(known, n);
-  const Mat9& v = solver.eigenvectors();  // v^T n v = 1
-  const Vec9 root =
+  projector_ = Matrix::Identity() - open_ * open_.transpose();
+  const Matrix n = projector_ * noise * projector_ + floor * Matrix::Identity();
+  const Matrix known = projector_ * information * projector_;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(known, n);
+  const Matrix& v = solver.eigenvectors();  // v^T n v = 1
+  const Vector root =
       (1 - kStandsOut * solver.eigenvalues().array().max(1e-12).inverse()).max(0).sqrt();
   root_ = n * v * root.asDiagonal() * v.transpose();
 }
 
-void InformativePart::apply(PointToPlaneSums& sums) const {
-  const Mat9 left = root_ * projector_;
-  const Mat9 scaled = left * sums.information * left.transpose();
+template <int N>
+void InformativePart<N>::apply(PointToPlaneSums<N>& sums) const {
+  const Matrix left = root_ * projector_;
+  const Matrix scaled = left * sums.information * left.transpose();
   sums.information = 0.5 * (scaled + scaled.transpose());
   sums.gradient = root_ * (left * sums.gradient).eval();
 }
+
+template struct PointToPlaneSums<9>;
+template struct PointToPlaneSums<18>;
+template class InformativePart<9>;
+template class InformativePart<18>;
 
 }  // namespace paloc

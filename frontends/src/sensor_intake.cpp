@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "paloc/frontends/imu_reader.h"
-#include "paloc/frontends/lidar_decoder.h"
 #include "sentence_parts.h"
 
 namespace paloc {
@@ -13,8 +12,9 @@ std::string classNameOf(const mrpt::obs::CObservation& observation) {
   return name.substr(name.rfind(':') + 1);
 }
 
-SensorIntake::SensorIntake(const FrontendSettings& settings)
+SensorIntake::SensorIntake(const FrontendSettings& settings, LidarColumns columns)
     : settings_(settings),
+      columns_(columns),
       lidar_("LiDAR", settings.lidar_label),
       imu_("IMU", settings.imu_label),
       imu_samples_(settings.max_imu_gap_s) {}
@@ -50,7 +50,7 @@ void SensorIntake::addLidar(const mrpt::obs::CObservation& observation) {
     return skip(observation, "another LiDAR is used");
   }
   std::string problem;
-  auto frame = decodeLidar(observation, {}, problem, std::move(recycled_));
+  auto frame = decodeLidar(observation, columns_, problem, std::move(recycled_));
   recycled_ = {};
   if (frame) problem = lidar_order_.check(frame->stamp_ns);
   if (problem.empty() && last_end_ns_ && frame->endNs() <= *last_end_ns_) {

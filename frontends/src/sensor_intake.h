@@ -13,6 +13,7 @@
 #include "imu_queue.h"
 #include "paloc/core/unused_counts.h"
 #include "paloc/frontends/frontend_settings.h"
+#include "paloc/frontends/lidar_decoder.h"
 #include "paloc/frontends/lidar_frame.h"
 #include "stream_choice.h"
 
@@ -26,7 +27,8 @@ std::string classNameOf(const mrpt::obs::CObservation& observation);
 /// IMU reaches their end, or until the recording is `max_wait_s` past it.
 class SensorIntake {
  public:
-  explicit SensorIntake(const FrontendSettings& settings);
+  /// `columns`: of the scans, besides points and times.
+  explicit SensorIntake(const FrontendSettings& settings, LidarColumns columns = {});
 
   /// Takes a scan or an IMU sample; false if it is neither.
   bool add(const mrpt::obs::CObservation& observation);
@@ -73,6 +75,7 @@ class SensorIntake {
   void addLidar(const mrpt::obs::CObservation& observation);
 
   FrontendSettings settings_;
+  LidarColumns columns_;
   StreamChoice lidar_, imu_;
   StampOrder lidar_order_, imu_order_;
   ImuQueue imu_samples_;

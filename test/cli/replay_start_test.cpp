@@ -171,7 +171,8 @@ TEST_F(ReplayStart, WrongCallsAreUsageErrors) {
   expectRefused(withOptions({"--init-position=1,2,3,4"}), 2,
                 "--init-position: '1,2,3,4' is not x,y,z (m)");
   EXPECT_EQ(withOptions({"--init", "auto", "--init-pose=0,0,0,0,0,0"}).exit_code, 2);
-  expectRefused(withOptions({}, {"--frontend", "nope"}), 2, "there are: 'fast_lio', 'recorded'");
+  expectRefused(withOptions({}, {"--frontend", "nope"}), 2,
+                "there are: 'fast_lio', 'icp', 'lio_sam', 'recorded'");
   expectRefused(withOptions({}, {"--from", "3", "--to", "2"}), 2, "--to must be later than --from");
   const auto config = dir_.write("site.yaml", "matcher:\n  max_point: 3\n");
   expectRefused(withOptions({}, {"--config", config}), 2,

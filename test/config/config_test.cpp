@@ -227,9 +227,12 @@ std::size_t rowsOf(const std::string& section) {
 }
 
 TEST(SettingsTable, HasARowForEveryField) {
-  // Three of its fields are the section fast_lio, and what comes from the estimator's.
-  EXPECT_EQ(rowsOf("frontend"), test::fieldCount<FrontendSettings>() - 3);
+  // Six of its fields are sections of their own, and what comes from the estimator's.
+  EXPECT_EQ(rowsOf("frontend"), test::fieldCount<FrontendSettings>() - 6);
+  EXPECT_EQ(rowsOf("local_map"), test::fieldCount<LocalMapSettings>());
+  EXPECT_EQ(rowsOf("icp"), test::fieldCount<IcpSettings>());
   EXPECT_EQ(rowsOf("fast_lio"), test::fieldCount<FastLioSettings>());
+  EXPECT_EQ(rowsOf("lio_sam"), test::fieldCount<LioSamSettings>());
   EXPECT_EQ(rowsOf("imu"), test::fieldCount<ImuNoise>());
   EXPECT_EQ(rowsOf("map"), test::fieldCount<MapSettings>());
   EXPECT_EQ(rowsOf("matcher"), test::fieldCount<MatcherSettings>());
@@ -259,6 +262,7 @@ TEST(SettingsTable, UnitsStandAtTheEndOfTheKeys) {
                                                       {"rad", "_rad"},
                                                       {"m/s", "_mps"},
                                                       {"rad/s", "_radps"},
+                                                      {"rad/s2", "_radps2"},
                                                       {"m/s2", "_mps2"},
                                                       {"1/sqrt(Hz)", "_sqrthz"},
                                                       {"m/s2/sqrt(Hz)", "_mps2_sqrthz"},

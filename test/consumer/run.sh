@@ -19,6 +19,14 @@ cmake --build "$work/build" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
   >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 "$work/build/consumer" "$work"/data/{recording.rawlog,map.ply,truth.tum}
 
+# The example of a front-end as a plugin, built from what was installed.
+cmake -G Ninja -S "$work/prefix/share/paloc/example" -B "$work/example" \
+  -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_BUILD_TYPE=Release >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+cmake --build "$work/example" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+"$work/prefix/bin/paloc" replay "$work/data/recording.rawlog" --map "$work/data/map.ply" --no-side-file \
+  --init-tum "$work/data/truth.tum" --plugin "$work/example/libscan_to_scan.so" --frontend scan_to_scan \
+  -o "$work/result" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+
 "$work/prefix/bin/paloc" --version
 # The preset by its name alone: found in the prefix, not in the build folder.
 (cd / && "$work/prefix/bin/paloc" config dump --config vlp-16 | grep "max_range_m: 100$" >/dev/null)  # not -q: it would break the pipe

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
+#include "walls.h"
 
 namespace paloc {
 namespace {
@@ -17,33 +17,9 @@ ImuBuffer restingImu() {
 
 LioMatrix somewhatSure(double sigma) { return sigma * sigma * LioMatrix::Identity(); }
 
-/// Points on planes across the given axes, at +-3 m, with 1 cm of noise; the body is at rest at the
-/// origin, in the middle of them.
-struct Walls {
-  std::vector<MeasuredPoint> points;
-  LocalVoxelMap map{{}};
-
-  explicit Walls(const std::vector<int>& axes) {
-    std::mt19937_64 random(11);
-    std::normal_distribution<double> noise(0, 0.01);
-    std::uniform_real_distribution<double> along(-3, 3);
-    for (int i = 0; i < 60'000; ++i) {
-      const int axis = axes[static_cast<std::size_t>(i) % axes.size()];
-      Vec3 point(along(random), along(random), along(random));
-      point[axis] = ((i / 6) % 2 == 0 ? 3 : -3) + noise(random);
-      if (i < 58'000) {
-        map.add(point, point);
-      } else {
-        points.push_back({point, 0});
-      }
-    }
-    map.endScan(Vec3::Zero());
-  }
-};
-
 TEST(LioFilter, ARoomTellsThePoseAndByItTheVelocity) {
   const ImuBuffer imu = restingImu();
-  const Walls room({0, 1, 2});
+  const test::Walls room({0, 1, 2});
   LioFilter filter({});
   LioState wrong;
   wrong.v_odom = Vec3(0.3, -0.2, 0.1);
@@ -61,7 +37,7 @@ TEST(LioFilter, ARoomTellsThePoseAndByItTheVelocity) {
 
 TEST(LioFilter, WhatIsOpenStaysAsItWasPredicted) {
   const ImuBuffer imu = restingImu();
-  const Walls corridor({1, 2});
+  const test::Walls corridor({1, 2});
   LioFilter filter({});
   filter.begin({}, somewhatSure(0.2));
   constexpr TimeNs kEnd = 100'000'000;

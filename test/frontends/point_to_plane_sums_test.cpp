@@ -22,63 +22,72 @@ class Random {
   std::uniform_real_distribution<double> uniform_;
 };
 
+using Vec18 = Eigen::Matrix<double, 18, 1>;
+
 TEST(PointToPlaneSums, JacobianIsTheDerivative) {
   Random random(7);
   for (int trial = 0; trial < 1000; ++trial) {
-    const Vec3 p = random.vector(), v = random.vector(), u = 5 * random.vector(),
-               c = random.vector();
-    const Mat3 R = so3::exp(2 * random.vector());
+    const Vec3 p = random.vector(), v = random.vector(), acc = random.vector(), c = random.vector();
+    const Vec3 lever = 5 * random.vector();  // R_tau q
     const Vec3 n = random.vector().normalized();
-    const double tau = random.uniform(0, 0.1);
-    const auto residual = [&](const Vec9& d) {
-      const Vec3 y =
-          p + d.head<3>() - (v + d.tail<3>()) * tau + so3::exp(Vec3(d.segment<3>(3))) * R * u;
+    const double tau = random.uniform(0, 0.1), sag = random.uniform(0, 0.1);
+    const auto residual = [&](const Vec18& d) {
+      const Vec3 turn = d.segment<3>(3) - tau * d.segment<3>(9) - sag * d.tail<3>();
+      const Vec3 y = p + d.head<3>() - (v + d.segment<3>(6)) * tau -
+                     (acc + d.segment<3>(12)) * sag + so3::exp(turn) * lever;
       return n.dot(y - c);
     };
-    const PointToPlane row{n, R * u, tau, residual(Vec9::Zero())};
-    const Vec9 j = jacobianOf(row, 1);
+    const PointToPlane row{n, lever, tau, sag, residual(Vec18::Zero())};
+    const Vec18 j = jacobianOf<18>(row, 1);
     constexpr double kStep = 1e-6;
-    for (int k = 0; k < 9; ++k) {
+    for (int k = 0; k < 18; ++k) {
       const double numeric =
-          (residual(kStep * Vec9::Unit(k)) - residual(-kStep * Vec9::Unit(k))) / (2 * kStep);
+          (residual(kStep * Vec18::Unit(k)) - residual(-kStep * Vec18::Unit(k))) / (2 * kStep);
       EXPECT_NEAR(j[k], numeric, 1e-7) << k;
     }
-    EXPECT_EQ(jacobianOf(row, 0).tail<3>().norm(), 0) << "a rigid scan tells no velocity";
+    EXPECT_EQ(jacobianOf<9>(row, 1), j.head<9>());
+    EXPECT_EQ(jacobianOf<18>(row, 0).tail<12>().norm(), 0) << "a rigid scan tells no velocity";
   }
 }
 
-TEST(PointToPlaneSums, NormalNoiseIsThatOfManyNormals) {
+template <int N>
+void expectNoiseOfManyNormals() {
   Random random(8);
-  const PointToPlane row{Vec3(1, 2, -0.5).normalized(), Vec3(3, -1, 2), 0.07, 0};
+  const PointToPlane row{Vec3(1, 2, -0.5).normalized(), Vec3(3, -1, 2), 0.7, 0.4, 0};
   constexpr double kSigma = 0.01;
   constexpr int kRuns = 200'000;
-  Mat9 sampled = Mat9::Zero();
+  Eigen::Matrix<double, N, N> sampled = Eigen::Matrix<double, N, N>::Zero();
   for (int i = 0; i < kRuns; ++i) {
     // An error across the normal, isotropic, of this variance in each of the two directions.
     Vec3 error = kSigma * random.vector();
     error -= row.normal * row.normal.dot(error);
-    const Vec9 j = jacobianOf({error, row.lever, row.age_s, 0}, 1);
+    const auto j = jacobianOf<N>({error, row.lever, row.age_s, row.sag_s2, 0}, 1);
     sampled += j * j.transpose() / kRuns;
   }
-  PointToPlaneSums noise;
+  PointToPlaneSums<N> noise;
   noise.addNormalNoise(row, 1, kSigma * kSigma, 1);
   EXPECT_LT((noise.information - sampled).norm(), 0.02 * sampled.norm());
 }
 
+TEST(PointToPlaneSums, NormalNoiseIsThatOfManyNormals) {
+  expectNoiseOfManyNormals<9>();
+  expectNoiseOfManyNormals<18>();
+}
+
 /// Points on the walls of a place whose normals have an error of 0.02 rad.
 struct NoisyScan {
-  PointToPlaneSums sums, noise;
+  PointToPlaneSums<9> sums, noise;
 
   void add(const Vec3& point, const Vec3& normal, Random& random) {
     const Vec3 n = (normal + 0.02 * random.vector()).normalized();
-    const PointToPlane row{n, point, random.uniform(0, 0.1), 0.01 * random.normal()};
+    const PointToPlane row{n, point, random.uniform(0, 0.1), 0, 0.01 * random.normal()};
     sums.add(row, 1e4, 1);
     noise.addNormalNoise(row, 1e4, 4e-4, 1);
   }
 };
 
 // The share of a direction that is open.
-double openShare(const InformativePart& part, const Vec9& direction) {
+double openShare(const InformativePart<9>& part, const Vec9& direction) {
   return (part.open().transpose() * direction).norm() / direction.norm();
 }
 
@@ -92,7 +101,7 @@ TEST(InformativePart, ATunnelIsOpenAlongItsAxisAndNowhereElse) {
     scan.add(Vec3(random.uniform(-20, 20), 3 * std::cos(angle), 2 * std::sin(angle)), inwards,
              random);
   }
-  const InformativePart part(scan.sums.information, scan.noise.information);
+  const InformativePart<9> part(scan.sums.information, scan.noise.information);
   EXPECT_EQ(part.open().cols(), 2);
   EXPECT_GT(openShare(part, Vec9::Unit(0)), 0.999) << "position along the axis";
   EXPECT_GT(openShare(part, Vec9::Unit(6)), 0.999) << "velocity along the axis";
@@ -112,7 +121,7 @@ TEST(InformativePart, ARoomIsNotOpenAndLosesNothing) {
     point[axis] = 4 * side;
     scan.add(point, -side * Vec3::Unit(axis), random);
   }
-  const InformativePart part(scan.sums.information, scan.noise.information);
+  const InformativePart<9> part(scan.sums.information, scan.noise.information);
   EXPECT_EQ(part.open().cols(), 0);
   const Vec6 step =
       scan.sums.information.topLeftCorner<6, 6>().ldlt().solve(scan.sums.gradient.head<6>());

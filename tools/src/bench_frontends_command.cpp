@@ -7,6 +7,7 @@
 #include "paloc/core/errors.h"
 #include "paloc/tools/bench_frontends.h"
 #include "paloc/tools/config_options.h"
+#include "paloc/tools/plugin_option.h"
 #include "paloc/tools/progress_line.h"
 
 namespace paloc {
@@ -31,6 +32,7 @@ class BenchFrontendsCommand : public Command {
   void registerOn(CLI::App& bench) override {
     app_ = bench.add_subcommand("frontends", "Drift, covariance and speed of an odometry");
     app_->add_option("--frontend", settings_.frontend, "which")->capture_default_str();
+    plugins_.registerOn(*app_);
     app_->add_option("--scene", settings_.scene, "where, as of paloc synth")->capture_default_str();
     app_->add_option("--sensor", settings_.sensor, "LiDAR, as of paloc synth")
         ->capture_default_str();
@@ -53,6 +55,7 @@ class BenchFrontendsCommand : public Command {
   bool called() const override { return app_->parsed(); }
 
   ExitCode run() override {
+    plugins_.load();
     settings_.log = log_;
     settings_.truth = truth_;
     ProgressLine line;
@@ -74,6 +77,7 @@ class BenchFrontendsCommand : public Command {
   CLI::App* app_ = nullptr;
   BenchFrontendsSettings settings_;
   ConfigOptions config_;
+  PluginOption plugins_;
   std::string log_, truth_;
   bool json_ = false;
 };

@@ -10,6 +10,7 @@
 #include "paloc/tools/config_options.h"
 #include "paloc/tools/dense_output.h"
 #include "paloc/tools/html_text.h"
+#include "paloc/tools/plugin_option.h"
 #include "paloc/tools/progress_line.h"
 #include "paloc/tools/replay.h"
 #include "paloc/tools/replay_summary.h"
@@ -77,6 +78,7 @@ class ReplayCommand : public Command {
         ->required();
     replay_->add_option("--frontend", options_.frontend, "odometry front-end")
         ->capture_default_str();
+    plugins_.registerOn(*replay_);
     start_.registerOn(*replay_, "at the first scan");
     start_.registerTumOn(*replay_);
     replay_->add_option("--from", options_.from_s, "skip this much of the recording (s)")
@@ -121,6 +123,7 @@ class ReplayCommand : public Command {
     }
     if (!stamps_file_.empty()) stamps_ = readStamps(stamps_file_);
     options_.keep_imu = rate_ == "imu" || !stamps_.empty();
+    plugins_.load();
     const ResultFolder folder(output_, overwrite_);
 
     std::signal(SIGINT, onInterrupt);
@@ -178,6 +181,7 @@ class ReplayCommand : public Command {
     std::ostringstream line;
     line << "paloc replay " << options_.log_file << " --map " << options_.map_file << " --frontend "
          << options_.frontend << " --config config_effective.yaml";
+    line << plugins_.words();
     line << start_.words();
     if (options_.online) line << " --online";
     if (rate_ != "scan") line << " --rate " << rate_;
@@ -191,6 +195,7 @@ class ReplayCommand : public Command {
   CLI::App* replay_ = nullptr;
   ReplayOptions options_;
   ConfigOptions config_;
+  PluginOption plugins_;
   StartOptions start_;
   std::string rate_ = "scan", stamps_file_;
   std::vector<TimeNs> stamps_;

@@ -4,6 +4,9 @@
 
 #include "paloc/core/imu_noise.h"
 #include "paloc/frontends/fast_lio_settings.h"
+#include "paloc/frontends/icp_settings.h"
+#include "paloc/frontends/lio_sam_settings.h"
+#include "paloc/frontends/local_map_settings.h"
 
 namespace paloc {
 
@@ -35,7 +38,10 @@ struct FrontendSettings {
   ImuNoise imu_noise;
   double gravity_mps2 = 9.80665;
 
+  LocalMapSettings local_map;
   FastLioSettings fast_lio;
+  IcpSettings icp;
+  LioSamSettings lio_sam;
 };
 
 }  // namespace paloc

@@ -3,17 +3,13 @@
 #include <vector>
 
 #include "paloc/frontends/free_fall_scan.h"
+#include "paloc/frontends/imu_agreement.h"
 #include "paloc/frontends/lio_prediction.h"
 #include "paloc/frontends/lio_state.h"
+#include "paloc/frontends/place_points.h"
 #include "paloc/frontends/plane_matches.h"
 
 namespace paloc {
-
-/// A point of a scan as it was measured.
-struct MeasuredPoint {
-  Vec3 point_body = Vec3::Zero();  ///< in the body frame at its own time (m)
-  double age_s = 0;                ///< how long before the end of the scan that was
-};
 
 /// The iterated error-state Kalman filter of FAST-LIO2 (W. Xu et al., 2022, section V): state and
 /// covariance, predicted with the IMU, updated with the points of a scan against planes of a local
@@ -67,16 +63,10 @@ class PALOC_EXPORT LioFilter {
   /// larger.
   Mat6 motionCovariance() const;
 
-  /// By how much the variance of the IMU's noise was raised, so that the steps of the updates are
-  /// as large as expected: 1 for an IMU that is as good as the settings say.
-  double imuFactor() const { return imu_factor_; }
+  /// By how much the variance of the IMU's noise was raised (see ImuAgreement).
+  double imuFactor() const { return agreement_.imuFactor(); }
 
  private:
-  void compare(const Vec6& step, const LioMatrix& gained);
-  void placePoints(const std::vector<MeasuredPoint>& points, const FreeFallScan& scan,
-                   const Vec3& sensor_body, const LioState& x, double ageing);
-  double lever(const std::vector<MeasuredPoint>& points) const;
-
   Limits limits_;
   PlaneMatches matches_;
   LioState state_;
@@ -85,7 +75,7 @@ class PALOC_EXPORT LioFilter {
   Pose T_odom_body_0_;
   Mat6 covariance_0_ = Mat6::Zero();
   Eigen::Matrix<double, lio::kDim, 6> cross_ = Eigen::Matrix<double, lio::kDim, 6>::Zero();
-  double imu_factor_ = 1, disagreement_ = 1;  // variances, as ratios
+  ImuAgreement agreement_;
   std::vector<PlacedPoint> placed_;
 };
 

@@ -23,8 +23,8 @@ class PALOC_EXPORT OdometryFrontend {
  public:
   using Ptr = std::unique_ptr<OdometryFrontend>;
 
-  /// Creates the front-end registered under `name` ("recorded", "fast_lio"). Throws ConfigError,
-  /// naming those that exist, if there is none.
+  /// Creates the front-end registered under `name` ("recorded", "fast_lio", "lio_sam"). Throws
+  /// ConfigError, naming those that exist, if there is none.
   static Ptr create(const std::string& name, const FrontendSettings& settings);
 
   using Factory = std::function<Ptr(const FrontendSettings&)>;

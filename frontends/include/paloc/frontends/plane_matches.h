@@ -14,6 +14,7 @@ struct PlacedPoint {
   Vec3 lever = Vec3::Zero();       ///< of PointToPlane
   Vec3 ray = Vec3::Zero();         ///< sensor to point, odom frame (m)
   double age_s = 0;                ///< before the end of the scan
+  double sag_s2 = 0;               ///< of PointToPlane
 };
 
 /// The points of a scan that have a plane in the local map, with the standard deviation of each
@@ -26,7 +27,8 @@ class PALOC_EXPORT PlaneMatches {
  public:
   explicit PlaneMatches(double noise_floor_m) : noise_floor_m_(noise_floor_m) {}
 
-  void associate(std::span<const PlacedPoint> points, const LocalVoxelMap& map, double gate_m);
+  void associate(std::span<const PlacedPoint> points, const LocalVoxelMap& map, double gate_m,
+                 double least_voxel_m = 0);
   std::size_t size() const { return rows_.size(); }
 
   /// Sets the weights, 1 / variance times that of the kernel of Geman and McClure. `widening_m` is
@@ -35,9 +37,11 @@ class PALOC_EXPORT PlaneMatches {
   void weigh(double widening_m);
 
   /// Normal equations of all rows (see jacobianOf for `ageing`).
-  PointToPlaneSums sums(double ageing) const;
+  template <int N>
+  PointToPlaneSums<N> sums(double ageing) const;
   /// What the noise of normals alone would give.
-  Mat9 normalNoise(double ageing) const;
+  template <int N>
+  Eigen::Matrix<double, N, N> normalNoise(double ageing) const;
 
  private:
   struct Row {

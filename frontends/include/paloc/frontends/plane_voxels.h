@@ -80,7 +80,6 @@ class PALOC_EXPORT PlaneVoxels {
   std::uint32_t lookUpOrMake(std::uint64_t key);
   void rebuildSlots(std::size_t count);
   void keepOnly(const std::vector<bool>& kept);
-  Vec3 centre(std::uint64_t key) const;
   void fit(std::uint32_t cell, const Vec3& ray);
 
   double edge_m_;

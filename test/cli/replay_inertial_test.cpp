@@ -6,14 +6,17 @@
 namespace paloc {
 namespace {
 
-TEST(ReplayFastLio, LocalizesWithoutTheRecordingsOdometry) {
+/// Replays with a front-end of paloc's own, of LiDAR and IMU.
+class ReplayInertial : public testing::TestWithParam<const char*> {};
+
+TEST_P(ReplayInertial, LocalizesWithoutTheRecordingsOdometry) {
   const test::TempDir dir;
   auto observations = test::demoObservations();
   std::erase_if(observations, [](const auto& o) { return o->sensorLabel == "odometry"; });
   test::ReplayCall call;
   call.log = dir / "no_odometry.rawlog";
   test::writeLog(call.log, observations);
-  call.more = {"--frontend", "fast_lio"};
+  call.more = {"--frontend", GetParam()};
   const auto run = test::replayInto(dir / "result", call);
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(run.tumRows(), 50U);
@@ -25,10 +28,10 @@ TEST(ReplayFastLio, LocalizesWithoutTheRecordingsOdometry) {
   }
 }
 
-TEST(ReplayFastLio, SameBytesOnOneThreadAndOnTwo) {
+TEST_P(ReplayInertial, SameBytesOnOneThreadAndOnTwo) {
   const test::TempDir dir;
   test::ReplayCall call;
-  call.more = {"--frontend", "fast_lio", "-j", "1"};
+  call.more = {"--frontend", GetParam(), "-j", "1"};
   const auto one = test::replayInto(dir / "one", call);
   call.more.back() = "2";
   const auto two = test::replayInto(dir / "two", call);
@@ -37,6 +40,9 @@ TEST(ReplayFastLio, SameBytesOnOneThreadAndOnTwo) {
     EXPECT_TRUE(one.file(file) == two.file(file)) << file;
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(ReplayKinds, ReplayInertial, testing::Values("fast_lio", "lio_sam"),
+                         [](const auto& kind) { return std::string(kind.param); });
 
 }  // namespace
 }  // namespace paloc

@@ -1,4 +1,4 @@
-#include "fast_lio_odometry.h"
+#include "tracked_odometry.h"
 
 #include <algorithm>
 #include <utility>
@@ -9,21 +9,26 @@
 #include "sentence_parts.h"
 
 namespace paloc {
-namespace {
+ScanTracker::~ScanTracker() = default;
 
-constexpr double kNoteworthyNoise = 5;  // in that of the settings
-
-}  // namespace
-
-FastLioOdometry::FastLioOdometry(const FrontendSettings& settings)
-    : settings_(settings), intake_(settings), tracker_(settings) {}
-
-void FastLioOdometry::setStageTimer(StageTimer* timer) {
-  timer_ = timer;
-  tracker_.setStageTimer(timer);
+OdometryFrontend::Ptr makeTrackedOdometry(std::string name, std::unique_ptr<ScanTracker> tracker,
+                                          const FrontendSettings& settings) {
+  return std::make_unique<TrackedOdometry>(std::move(name), std::move(tracker), settings);
 }
 
-void FastLioOdometry::add(const mrpt::obs::CObservation& observation) {
+TrackedOdometry::TrackedOdometry(std::string name, std::unique_ptr<ScanTracker> tracker,
+                                 const FrontendSettings& settings)
+    : name_(std::move(name)),
+      settings_(settings),
+      intake_(settings, tracker->columns()),
+      tracker_(std::move(tracker)) {}
+
+void TrackedOdometry::setStageTimer(StageTimer* timer) {
+  timer_ = timer;
+  tracker_->setStageTimer(timer);
+}
+
+void TrackedOdometry::add(const mrpt::obs::CObservation& observation) {
   {
     StageScope stage(timer_, "decode");
     if (!intake_.add(observation)) intake_.skip(observation, "not a LiDAR or IMU");
@@ -31,7 +36,7 @@ void FastLioOdometry::add(const mrpt::obs::CObservation& observation) {
   giveOutWhatIsReady();
 }
 
-void FastLioOdometry::giveOutWhatIsReady() {
+void TrackedOdometry::giveOutWhatIsReady() {
   while (const LidarFrame* frame = intake_.readyScan()) {
     giveOutImu(frame->endNs());
     giveOutFrame(*frame);
@@ -42,61 +47,62 @@ void FastLioOdometry::giveOutWhatIsReady() {
   if (const auto until_ns = intake_.imuReleaseNs()) giveOutImu(*until_ns);
 }
 
-void FastLioOdometry::giveOutImu(TimeNs until_ns) {
+void TrackedOdometry::giveOutImu(TimeNs until_ns) {
   while (auto sample = intake_.imu().takeUntil(until_ns)) {
     imu_.add(*sample);
     events_.emplace_back(*sample);
   }
 }
 
-void FastLioOdometry::giveOutFrame(const LidarFrame& frame) {
+void TrackedOdometry::giveOutFrame(const LidarFrame& frame) {
   OdometryFrame result;
   result.t_ns = frame.endNs();
   const bool deskew = !frame.points_lidar.empty() && intake_.canDeskew(frame);
-  const LioTracker::Outcome outcome = tracker_.add(frame, imu_, deskew);
+  const ScanTracker::Outcome outcome = tracker_->add(frame, imu_, deskew);
   releaseFirst();
   ++counts_.frames;
   switch (outcome) {
-    case LioTracker::Outcome::kNoInertia:
-      ++counts_.without_imu;
-      intake_.unused().add(frame.class_name, frame.label, "scan not used: no IMU data during it");
+    case ScanTracker::Outcome::kRefused:
+      ++counts_.refused;
+      intake_.unused().add(frame.class_name, frame.label,
+                           "scan not used: " + tracker_->whyRefused());
       events_.emplace_back(std::move(result));
       return;
-    case LioTracker::Outcome::kBegun:
+    case ScanTracker::Outcome::kBegun:
       ++counts_.begun;
       first_ = {frame, deskew};
       break;
-    case LioTracker::Outcome::kCoasted:
+    case ScanTracker::Outcome::kCoasted:
       ++counts_.coasted;
       intake_.unused().add(frame.class_name, frame.label,
                            "scan not registered: too few points on the local map");
       break;
-    case LioTracker::Outcome::kTracked:
+    case ScanTracker::Outcome::kTracked:
       break;
   }
-  result.continues = outcome != LioTracker::Outcome::kBegun;
-  if (result.continues) result.motion_covariance = tracker_.motionCovariance();
-  result.T_odom_body = toMrpt(tracker_.state().T_odom_body);
+  result.continues = outcome != ScanTracker::Outcome::kBegun;
+  if (result.continues) result.motion_covariance = tracker_->motionCovariance();
+  result.T_odom_body = toMrpt(tracker_->T_odom_body());
   if (!first_) {
-    const ScanMotion motion = tracker_.scanMotion();
+    const ScanMotion motion = tracker_->scanMotion();
     result.scan = scanOf(frame, deskew ? &motion : nullptr);
   }
   events_.emplace_back(std::move(result));
 }
 
 // The event of the first frame lies among the others, without its scan.
-void FastLioOdometry::releaseFirst() {
+void TrackedOdometry::releaseFirst() {
   if (!first_) return;
   const auto event = std::find_if(events_.begin(), events_.end(), [&](const FrontendEvent& e) {
     const auto* frame = std::get_if<OdometryFrame>(&e);
     return frame && frame->t_ns == first_->frame.endNs();
   });
-  const ScanMotion motion = tracker_.firstScanMotion();
+  const ScanMotion motion = tracker_->firstScanMotion();
   std::get<OdometryFrame>(*event).scan = scanOf(first_->frame, first_->deskew ? &motion : nullptr);
   first_.reset();
 }
 
-std::shared_ptr<const Scan> FastLioOdometry::scanOf(const LidarFrame& frame,
+std::shared_ptr<const Scan> TrackedOdometry::scanOf(const LidarFrame& frame,
                                                     const ScanMotion* motion) {
   StageScope stage(timer_, "deskew");
   auto scan =
@@ -105,7 +111,7 @@ std::shared_ptr<const Scan> FastLioOdometry::scanOf(const LidarFrame& frame,
   return scan;
 }
 
-void FastLioOdometry::finish() {
+void TrackedOdometry::finish() {
   if (intake_.finished()) return;
   intake_.finish();
   giveOutWhatIsReady();
@@ -116,42 +122,34 @@ void FastLioOdometry::finish() {
   noteAtEnd();
 }
 
-void FastLioOdometry::noteAtEnd() {
+void TrackedOdometry::noteAtEnd() {
   if (counts_.begun > 1) {
     intake_.note("the odometry began anew " + timesInFigures(counts_.begun - 1));
   }
   const std::string of_all = " of " + std::to_string(counts_.frames) + " scans ";
   if (counts_.coasted > 0) {
     intake_.note(std::to_string(counts_.coasted) + of_all +
-                 "could not be registered to the local map: their motion is the IMU's");
+                 "could not be registered to the local map: their motion is " +
+                 tracker_->whoseMotionWhereCoasted());
   }
-  if (tracker_.intervalsWithoutImu() > 0) {
-    intake_.note("the IMU does not cover " + std::to_string(tracker_.intervalsWithoutImu()) +
-                 of_all + "and the way to them: taken as an even motion");
+  if (counts_.refused > 0) {
+    intake_.note(std::to_string(counts_.refused) + of_all + "could not be used: " + name_ + " " +
+                 tracker_->need());
   }
-  if (tracker_.worstImuNoise() > kNoteworthyNoise) {
-    intake_.note("the IMU disagrees with the scans: its noise was taken as up to " +
-                 figure("%.0f", tracker_.worstImuNoise()) +
-                 " times that of the settings (imu.*_noise_density); look at its scale, filter and "
-                 "clock");
-  }
-  if (counts_.without_imu > 0) {
-    intake_.note(std::to_string(counts_.without_imu) + of_all +
-                 "could not be used: fast_lio begins with a scan during which there is IMU data");
-  }
+  for (const std::string& sentence : tracker_->notes(counts_.frames)) intake_.note(sentence);
 }
 
-std::optional<FrontendEvent> FastLioOdometry::next() {
+std::optional<FrontendEvent> TrackedOdometry::next() {
   if (events_.empty()) return std::nullopt;
   const auto* frame = std::get_if<OdometryFrame>(&events_.front());
   if (first_ && frame && frame->t_ns == first_->frame.endNs()) return std::nullopt;
   return takeFront(events_);
 }
 
-std::vector<std::string> FastLioOdometry::problems() const {
+std::vector<std::string> TrackedOdometry::problems() const {
   std::vector<std::string> sentences = intake_.problems();
   if (counts_.frames > 0 && counts_.begun == 0) {
-    sentences.push_back("fast_lio needs an IMU, and the recording has none during its scans");
+    sentences.push_back(name_ + " " + tracker_->need() + ": no scan of the recording has that");
   } else if (const auto sentence = intake_.whyNoScan(counts_.with_scan); !sentence.empty()) {
     sentences.push_back(sentence);
   }

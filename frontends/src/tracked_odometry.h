@@ -3,23 +3,26 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
-#include "lio_tracker.h"
 #include "paloc/frontends/odometry_frontend.h"
+#include "paloc/frontends/scan_tracker.h"
 #include "sensor_intake.h"
 
 namespace paloc {
 
-/// Tightly coupled LiDAR-inertial odometry of the FAST-LIO2 family (see LioFilter, LioTracker).
+/// A front-end that finds the motion itself, by a ScanTracker.
 ///
 /// The odom frame is the body at the end of the first scan; after a pause of more than `max_gap_s`,
-/// or where the filter lost itself, the odometry goes on from its last pose with a new map, and the
-/// first frame does not `continue`. A scan that cannot be registered comes with the pose predicted
-/// and the covariance of the prediction. The first frame is given out with the second, which tells
-/// how the body moved during it.
-class FastLioOdometry : public OdometryFrontend {
+/// or where the tracker lost itself, the odometry goes on from its last pose with a new map, and
+/// the first frame does not `continue`. A scan that cannot be registered comes with the pose
+/// predicted and the covariance of the prediction. The first frame is given out with the second,
+/// which tells how the body moved during it.
+class TrackedOdometry : public OdometryFrontend {
  public:
-  explicit FastLioOdometry(const FrontendSettings& settings);
+  TrackedOdometry(std::string name, std::unique_ptr<ScanTracker> tracker,
+                  const FrontendSettings& settings);
 
   void add(const mrpt::obs::CObservation& observation) override;
   void finish() override;
@@ -28,7 +31,7 @@ class FastLioOdometry : public OdometryFrontend {
   std::vector<std::string> takeNotes() override { return intake_.takeNotes(); }
   std::vector<std::string> problems() const override;
   void setStageTimer(StageTimer* timer) override;
-  std::size_t mapBytes() const override { return tracker_.mapBytes(); }
+  std::size_t mapBytes() const override { return tracker_->mapBytes(); }
 
  private:
   void giveOutWhatIsReady();
@@ -38,10 +41,11 @@ class FastLioOdometry : public OdometryFrontend {
   std::shared_ptr<const Scan> scanOf(const LidarFrame& frame, const ScanMotion* motion);
   void noteAtEnd();
 
+  std::string name_;
   FrontendSettings settings_;
   SensorIntake intake_;
   ImuBuffer imu_;
-  LioTracker tracker_;
+  std::unique_ptr<ScanTracker> tracker_;
   StageTimer* timer_ = nullptr;
   std::deque<FrontendEvent> events_;
   struct WaitingFrame {
@@ -50,7 +54,7 @@ class FastLioOdometry : public OdometryFrontend {
   };
   std::optional<WaitingFrame> first_;  // of a stretch: its event waits for the next frame
   struct {
-    int frames = 0, with_scan = 0, begun = 0, coasted = 0, without_imu = 0;
+    int frames = 0, with_scan = 0, begun = 0, coasted = 0, refused = 0;
   } counts_;
 };
 

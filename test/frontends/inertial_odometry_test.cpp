@@ -1,52 +1,26 @@
 #include <gtest/gtest.h>
+
 #include <Eigen/Cholesky>
 
-#include "recorded_walk.h"
+#include "recorded_lidar_imu.h"
 
 namespace paloc {
 namespace {
 
 using namespace test::recorded;
 
-double seconds(TimeNs t_ns) { return static_cast<double>(t_ns) * 1e-9; }
-
-/// Scans of a room by a sensor with 32 rings, which sees floor and ceiling, and the IMU, on a path.
-std::vector<CObservation::Ptr> recordingOf(const test::Path& path, int scans,
-                                           bool with_imu = true) {
-  Recording recording;
-  for (int i = 0; i < scans; ++i) {
-    recording.add(std::make_shared<obs::CObservationLidarScan>(
-        test::scanRoom(test::BoxRoom{}, path, Pose{}, kT0 + i * kScan, kScan - kMs, 360, 32)));
+/// What all front-ends of LiDAR and IMU do.
+class InertialOdometry : public testing::TestWithParam<const char*> {
+ protected:
+  static Output runOn(const std::vector<CObservation::Ptr>& observations) {
+    return run(observations, {}, GetParam());
   }
-  const TimeNs end = kT0 + scans * kScan + 20 * kMs;
-  for (TimeNs t = kT0 - 22 * kMs; with_imu && t <= end; t += 5 * kMs) {
-    const ImuSample sample = test::imuOnPath(path, t, 9.80665);
-    auto imu = std::dynamic_pointer_cast<CObservationIMU>(imuAt(t));
-    imu->set(mrpt::obs::IMU_X_ACC, sample.acc_body.x());
-    imu->set(mrpt::obs::IMU_Y_ACC, sample.acc_body.y());
-    imu->set(mrpt::obs::IMU_Z_ACC, sample.acc_body.z());
-    imu->set(mrpt::obs::IMU_WX, sample.omega_body.x());
-    imu->set(mrpt::obs::IMU_WY, sample.omega_body.y());
-    imu->set(mrpt::obs::IMU_WZ, sample.omega_body.z());
-    recording.add(imu);
-  }
-  return recording.inOrder();
-}
-
-Output runLio(const std::vector<CObservation::Ptr>& observations) {
-  return run(observations, {}, "fast_lio");
-}
-
-Pose errorOf(const test::Path& path, const OdometryFrame& from, const OdometryFrame& to) {
-  const Pose truth = path(seconds(from.t_ns)).inverse() * path(seconds(to.t_ns));
-  const Pose motion = fromMrpt(from.T_odom_body).inverse() * fromMrpt(to.T_odom_body);
-  return truth.inverse() * motion;
-}
+};
 
 /// Up to 1.7 m/s and 2 rad/s, from the first scan on.
-TEST(FastLioOdometry, FollowsAQuickWalkThatHasBegun) {
+TEST_P(InertialOdometry, FollowsAQuickWalkThatHasBegun) {
   const test::Path path = test::sway();
-  const Output output = runLio(recordingOf(path, 60));
+  const Output output = runOn(recordingOf(path, 60));
   ASSERT_EQ(output.frames.size(), 60U);
   for (std::size_t i = 0; i < 60; ++i) {
     const OdometryFrame& frame = output.frames[i];
@@ -64,9 +38,9 @@ TEST(FastLioOdometry, FollowsAQuickWalkThatHasBegun) {
   EXPECT_TRUE(output.problems.empty());
 }
 
-TEST(FastLioOdometry, TheFirstScanIsDeskewedByWhatTheSecondTells) {
+TEST_P(InertialOdometry, TheFirstScanIsDeskewedByWhatTheSecondTells) {
   const test::Path path = test::constantTwist(Vec3(1.5, 0.5, 0), Vec3(0, 0, 0.8));
-  const Output output = runLio(recordingOf(path, 4));
+  const Output output = runOn(recordingOf(path, 4));
   ASSERT_EQ(output.frames.size(), 4U);
   ASSERT_TRUE(output.frames[0].scan);
   EXPECT_LT(test::worstOffWall({}, path(seconds(output.frames[0].t_ns)),
@@ -75,8 +49,8 @@ TEST(FastLioOdometry, TheFirstScanIsDeskewedByWhatTheSecondTells) {
       << "taken as at rest it would be 0.15 m";
 }
 
-TEST(FastLioOdometry, SamplesThatReachAFramesEndComeBeforeIt) {
-  const Output output = runLio(recordingOf(test::sway(), 8));
+TEST_P(InertialOdometry, SamplesThatReachAFramesEndComeBeforeIt) {
+  const Output output = runOn(recordingOf(test::sway(), 8));
   TimeNs newest = 0;
   std::size_t frames = 0;
   for (const FrontendEvent& event : output.events) {
@@ -92,14 +66,14 @@ TEST(FastLioOdometry, SamplesThatReachAFramesEndComeBeforeIt) {
   EXPECT_EQ(frames, 8U);
 }
 
-TEST(FastLioOdometry, AGapOfTheImuIsBridgedToldAndMakesTheMotionUncertain) {
+TEST_P(InertialOdometry, AGapOfTheImuIsBridgedToldAndMakesTheMotionUncertain) {
   auto observations = recordingOf(test::sway(), 30);
   const auto in_gap = [](const auto& o) {
     const TimeNs t = fromMrptTime(o->timestamp);
     return o->sensorLabel == "imu" && t > kT0 + 15 * kScan && t < kT0 + 17 * kScan;
   };
   std::erase_if(observations, in_gap);
-  const Output output = runLio(observations);
+  const Output output = runOn(observations);
   ASSERT_EQ(output.frames.size(), 30U);
   EXPECT_TRUE(output.noted("taken as an even motion"));
   const test::Path path = test::sway();
@@ -115,28 +89,28 @@ TEST(FastLioOdometry, AGapOfTheImuIsBridgedToldAndMakesTheMotionUncertain) {
   }
 }
 
-TEST(FastLioOdometry, WithoutAnImuItSaysWhatItNeeds) {
-  const Output output = runLio(recordingOf(test::sway(), 5, false));
+TEST_P(InertialOdometry, WithoutAnImuItSaysWhatItNeeds) {
+  const Output output = runOn(recordingOf(test::sway(), 5, false));
   EXPECT_EQ(output.frames.size(), 5U);
   for (const OdometryFrame& frame : output.frames) EXPECT_FALSE(frame.continues);
   EXPECT_TRUE(output.hasProblem("needs an IMU"));
   EXPECT_EQ(output.count("lidar", "scan not used: no IMU data during it"), 5U);
 }
 
-TEST(FastLioOdometry, APauseOfTheScansBeginsANewStretch) {
+TEST_P(InertialOdometry, APauseOfTheScansBeginsANewStretch) {
   auto observations = recordingOf(test::sway(), 60);
   std::erase_if(observations, [](const auto& o) {
     const TimeNs t = fromMrptTime(o->timestamp);
     return o->sensorLabel == "lidar" && t > kT0 + 10 * kScan && t < kT0 + 40 * kScan;
   });
-  const Output output = runLio(observations);
+  const Output output = runOn(observations);
   ASSERT_EQ(output.frames.size(), 31U);
   for (std::size_t i = 1; i < 31; ++i) EXPECT_EQ(output.frames[i].continues, i != 11) << i;
   EXPECT_TRUE(output.noted("began anew 1 time"));
 }
 
-TEST(FastLioOdometry, CovariancesAreSound) {
-  const Output output = runLio(recordingOf(test::sway(), 20));
+TEST_P(InertialOdometry, CovariancesAreSound) {
+  const Output output = runOn(recordingOf(test::sway(), 20));
   for (std::size_t i = 1; i < output.frames.size(); ++i) {
     const Eigen::Matrix<double, 6, 6> covariance = output.frames[i].motion_covariance;
     EXPECT_EQ(covariance, covariance.transpose());
@@ -146,6 +120,33 @@ TEST(FastLioOdometry, CovariancesAreSound) {
     }
   }
 }
+
+/// At rest for a second and a half, then off with 0.5 m/s2.
+TEST_P(InertialOdometry, BeginsAtRestAsWell) {
+  const test::Path path = [](double t) {
+    const double moving_s = std::max(t - 6.5, 0.0);
+    return Pose{Vec3(0.25 * moving_s * moving_s, 0, 0), Mat3::Identity()};
+  };
+  const Output output = runOn(recordingOf(path, 40));
+  ASSERT_EQ(output.frames.size(), 40U);
+  EXPECT_LT(errorOf(path, output.frames[0], output.frames[12]).position.norm(), 0.003);
+  EXPECT_LT(errorOf(path, output.frames[0], output.frames[39]).position.norm(), 0.02);
+}
+
+TEST_P(InertialOdometry, SameInputSameBytes) {
+  const auto observations = recordingOf(test::sway(), 15);
+  const Output one = runOn(observations), two = runOn(observations);
+  ASSERT_EQ(one.frames.size(), two.frames.size());
+  for (std::size_t i = 0; i < one.frames.size(); ++i) {
+    const OdometryFrame &a = one.frames[i], &b = two.frames[i];
+    EXPECT_EQ(fromMrpt(a.T_odom_body).position, fromMrpt(b.T_odom_body).position);
+    EXPECT_EQ(fromMrpt(a.T_odom_body).rotation, fromMrpt(b.T_odom_body).rotation);
+    EXPECT_EQ(a.motion_covariance, b.motion_covariance);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, InertialOdometry, testing::Values("fast_lio", "lio_sam"),
+                         [](const auto& kind) { return std::string(kind.param); });
 
 }  // namespace
 }  // namespace paloc

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "paloc/core/imu_buffer.h"
+#include "paloc/core/stage_timer.h"
+#include "paloc/frontends/lidar_decoder.h"
+#include "paloc/frontends/lidar_frame.h"
+#include "paloc/frontends/odometry_frontend.h"
+#include "paloc/frontends/scan_motion.h"
+
+namespace paloc {
+
+/// An odometry scan by scan: how the body moved, from the scans and perhaps the IMU, in an odom
+/// frame that it chooses. What a front-end must do besides, makeTrackedOdometry() adds.
+class PALOC_EXPORT ScanTracker {
+ public:
+  enum class Outcome {
+    kTracked,
+    kCoasted,  ///< the scan could not be registered: the pose is predicted
+    kBegun,    ///< the first scan of a stretch: the motion since the last frame is not known
+    kRefused,  ///< not begun: see whyRefused()
+  };
+
+  virtual ~ScanTracker();
+
+  /// `imu` holds the samples since the last scan, those before and behind the scan's ends among
+  /// them, where there are any. `has_times`: the points' times are to be used. The scan is later
+  /// than all before.
+  virtual Outcome add(const LidarFrame& frame, const ImuBuffer& imu, bool has_times) = 0;
+
+  virtual const Pose& T_odom_body() const = 0;
+  /// Of the motion since the last frame (see OdometryFrame).
+  virtual Mat6 motionCovariance() const = 0;
+  /// How the body moved during the scan that was added last, in poses of the odom frame.
+  virtual ScanMotion scanMotion() const = 0;
+  /// The same of the first scan of a stretch, once the second was added.
+  virtual ScanMotion firstScanMotion() const = 0;
+  virtual std::size_t mapBytes() const = 0;
+  /// Which columns of the scans it wants, besides points and times.
+  virtual LidarColumns columns() const { return {}; }
+
+  /// Sentences for the user, parts of them: "no IMU data during it"; "the IMU's".
+  virtual std::string whyRefused() const { return {}; }
+  virtual std::string whoseMotionWhereCoasted() const = 0;
+  /// What the odometry needs, as the end of "NAME ".
+  virtual std::string need() const { return "needs a scan with points"; }
+  /// What is known at the end, after that many scans.
+  virtual std::vector<std::string> notes(int /*scans*/) const { return {}; }
+
+  void setStageTimer(StageTimer* timer) { timer_ = timer; }
+
+ protected:
+  StageTimer* timer_ = nullptr;
+};
+
+/// The front-end `name` that finds its motion by a tracker: it takes scans and IMU samples out of
+/// the recording, brings them into order, gives the tracker each scan, and gives out its poses with
+/// the scans deskewed to their ends.
+PALOC_EXPORT OdometryFrontend::Ptr makeTrackedOdometry(std::string name,
+                                                       std::unique_ptr<ScanTracker> tracker,
+                                                       const FrontendSettings& settings);
+
+}  // namespace paloc

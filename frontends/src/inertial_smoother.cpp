@@ -1,0 +1,206 @@
+#include "paloc/frontends/inertial_smoother.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <cmath>
+#include <utility>
+
+#include "motion_covariance.h"
+
+namespace paloc {
+namespace {
+
+// The first pose is that of the odom frame, and known; so far as the numbers need it, it is not.
+constexpr double kFirstPosition = 1e-4, kFirstRotation = 1e-5;  // m, rad
+// Of the length of gravity's direction, of one: what is told of it at the first node stays linear
+// in that direction, in which the length changes as the direction turns.
+constexpr double kGravityLength = 1e-3, kFirstGravityLength = 0.1;
+constexpr double kGravityWalk = 1e-6;  // 1/sqrt(Hz)
+// Of an edge, so that it can be inverted: an IMU that is interpolated over a gap has fewer samples
+// than there are unknowns.
+constexpr double kEdgePosition = 1e-6, kEdgeRotation = 1e-7, kEdgeVelocity = 1e-5;  // m rad m/s
+constexpr double kLostSigma_m = 100;
+constexpr double kMostRotation = 0.01;  // rad2, in a unit direction that is one of position
+
+SmootherSettings settingsOf(double lag_s) {
+  SmootherSettings settings;
+  settings.lag_s = lag_s;
+  settings.covariance_of_leaving = false;
+  return settings;
+}
+
+State toNode(const LioState& x) {
+  return {x.T_odom_body, x.v_odom, x.bias_acc, x.bias_gyro, x.gravity_odom.normalized()};
+}
+
+LioState toLio(const State& x, double gravity_mps2) {
+  return {x.T_map_body, x.v_map, x.bias_acc, x.bias_gyro,
+          gravity_mps2 * x.gravity_map.normalized()};
+}
+
+// Up follows from the mean force f = b_a + R^T (a - g) of the first scan, so the error of gravity's
+// direction is that of the bias, R b_a, and the body's acceleration a, across it, over its
+// strength.
+StateMatrix firstCovariance(const State& x, const InertialStart& start, double gravity_mps2) {
+  using namespace tangent;
+  StateVector sigma = StateVector::Zero();
+  sigma.segment<3>(kPosition).setConstant(kFirstPosition);
+  sigma.segment<3>(kRotation).setConstant(kFirstRotation);
+  sigma.segment<3>(kVelocity).setConstant(start.sigma_velocity_mps);
+  sigma.segment<3>(kBiasAcc).setConstant(start.sigma_bias_acc_mps2);
+  sigma.segment<3>(kBiasGyro).setConstant(start.sigma_bias_gyro_radps);
+  StateMatrix covariance = sigma.cwiseAbs2().asDiagonal();
+  const Vec3& g = x.gravity_map;
+  const Mat3 across = Mat3::Identity() - g * g.transpose();
+  const Mat3 by_bias = across * x.T_map_body.rotation / gravity_mps2;
+  const double bias_variance = start.sigma_bias_acc_mps2 * start.sigma_bias_acc_mps2;
+  const double tilt = start.sigma_acceleration_mps2 / gravity_mps2;
+  covariance.block<3, 3>(kGravity, kGravity) =
+      bias_variance * by_bias * by_bias.transpose() + tilt * tilt * across +
+      kFirstGravityLength * kFirstGravityLength * g * g.transpose();
+  covariance.block<3, 3>(kGravity, kBiasAcc) = bias_variance * by_bias;
+  covariance.block<3, 3>(kBiasAcc, kGravity) = bias_variance * by_bias.transpose();
+  return covariance;
+}
+
+// Holds the length of gravity; its direction is left to the IMU.
+GravityFactor lengthOfGravity(double gravity_mps2) {
+  constexpr double kAnyDirection = 1e6;  // rad
+  return {gravity_mps2 * Vec3::UnitZ(), kAnyDirection, kGravityLength};
+}
+
+Preintegration withFloor(Preintegration imu, double factor) {
+  imu.covariance *= factor;
+  const auto add = [&](int at, double sigma) {
+    imu.covariance.diagonal().segment<3>(at).array() += sigma * sigma;
+  };
+  add(0, kEdgePosition);
+  add(3, kEdgeRotation);
+  add(6, kEdgeVelocity);
+  return imu;
+}
+
+// Errors of variances `blur` make information W into (W^-1 + B)^-1, also where W is singular.
+Mat9 blurred(const Mat9& information, const Vec9& blur) {
+  const Mat9 left = Mat9::Identity() + information * blur.asDiagonal();
+  const Mat9 result = left.partialPivLu().solve(information);
+  return 0.5 * (result + result.transpose());
+}
+
+// What of the errors of position and velocity goes with those along open directions, as a matrix
+// (9 x 9); P is the covariance. A scan is to tell the rest of them only. An open direction comes
+// out a little otherwise at each scan. With an open position of large variance, what two scans know
+// across two such directions would tie it down, and the smallest residual across it move it far.
+// (After S. F. Schmidt's consider states; but what a scan tells of the rotation it tells in full,
+// for the tilt is what moved the position.)
+Mat9 openPart(const Mat9& P, const NullDirections<9>& open) {
+  using Columns = Eigen::Matrix<double, 9, Eigen::Dynamic, 0, 9, 9>;
+  Columns E = Columns::Zero(9, 0);
+  for (int i = 0; i < open.cols(); ++i) {
+    if (open.col(i).segment<3>(lio::kRotation).squaredNorm() > kMostRotation) continue;
+    E.conservativeResize(Eigen::NoChange, E.cols() + 1);
+    E.col(E.cols() - 1) = open.col(i);
+  }
+  if (E.cols() == 0) return Mat9::Zero();
+  Mat9 moving = P;
+  moving.middleRows<3>(lio::kRotation).setZero();
+  moving.middleCols<3>(lio::kRotation).setZero();
+  const Columns PE = moving * E;
+  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> along(E.transpose() * PE);
+  return PE * along.pseudoInverse() * E.transpose();
+}
+
+}  // namespace
+
+InertialSmoother::InertialSmoother(double lag_s, double gravity_mps2)
+    : gravity_mps2_(gravity_mps2), settings_(settingsOf(lag_s)), smoother_(settings_) {}
+
+void InertialSmoother::begin(TimeNs t_ns, const LioState& state, const InertialStart& start) {
+  ChainNode node;
+  node.t_ns = t_ns;
+  node.state = toNode(state);
+  const StateMatrix covariance = firstCovariance(node.state, start, gravity_mps2_);
+  node.node_factors.push_back(PriorFactor(
+      node.state, covariance.ldlt().solve(StateMatrix::Identity()), StateVector::Zero()));
+  smoother_ = FixedLagSmoother(settings_);
+  smoother_.add(std::move(node));
+  takeNewest();
+}
+
+void InertialSmoother::takeNewest() {
+  const NodeEstimate newest = smoother_.newest();
+  node_ = newest.state;
+  state_ = toLio(newest.state, gravity_mps2_);
+  covariance_ = newest.covariance;
+}
+
+std::optional<LioState> InertialSmoother::smoothed(TimeNs t_ns) const {
+  for (const NodeEstimate& node : smoother_.window(false)) {
+    if (node.t_ns == t_ns) return toLio(node.state, gravity_mps2_);
+  }
+  return std::nullopt;
+}
+
+// With the edge's factors linearized, their normal equations are those of x_j = F x_i + noise.
+void InertialSmoother::predict(const Preintegration& imu, const ImuNoise& noise) {
+  const ImuFactor factor(withFloor(imu, agreement_.imuFactor()), gravity_mps2_);
+  ChainNode from;
+  from.state = node_;
+  next_ = {};
+  next_.state = factor.predict(node_);
+  next_.edge_factors = {factor, BiasWalkFactor(noise, imu.dt_s),
+                        ConstantGravityFactor(kGravityWalk, imu.dt_s)};
+  const ChainBlock edge = linearizeEdge(from, next_);
+  const StateMatrix process = edge.hessian_jj.ldlt().solve(StateMatrix::Identity());
+  const StateMatrix F = -process * edge.hessian_ji;
+  cross_ = F * covariance_;
+  const StateMatrix predicted = cross_ * F.transpose() + process;
+  covariance_predicted_ = 0.5 * (predicted + predicted.transpose());
+  predicted_ = toLio(next_.state, gravity_mps2_);
+}
+
+void InertialSmoother::add(TimeNs t_ns, const FeatureMeasurement& scan, const Vec9& blur,
+                           bool compare) {
+  const Mat9 known = blurred(scan.information, blur);
+  // The gradient shrinks as the information does: what the scan asks for stays.
+  const Vec9 asked = (Mat9::Identity() + scan.information * blur.asDiagonal())
+                         .partialPivLu()
+                         .solve(-scan.gradient);
+  StateMatrix information = StateMatrix::Zero();
+  StateVector vector = StateVector::Zero();
+  const Mat9 kept = Mat9::Identity() - openPart(predictedCovariance(), scan.open);
+  information.topLeftCorner<9, 9>() = kept.transpose() * known * kept;
+  vector.head<9>() = kept.transpose() * asked;
+  next_.t_ns = t_ns;
+  next_.node_factors.push_back(PriorFactor(toNode(scan.at), information, vector));
+  next_.node_factors.push_back(lengthOfGravity(gravity_mps2_));
+  const Pose before = state_.T_odom_body;
+  const Mat6 covariance_before = covariance_.topLeftCorner<6, 6>();
+  const StateMatrix& P = covariance_predicted_;
+  const Eigen::PartialPivLU<StateMatrix> system(StateMatrix::Identity() + P * information);
+  const StateVector step =
+      system.solve(P * (vector + information * boxminus(toNode(scan.at), next_.state)));
+  next_.state = boxplus(next_.state, step);
+  smoother_.add(std::move(next_));
+  takeNewest();
+  const StateMatrix cross = system.solve(cross_), updated = system.solve(P);
+  if (compare) {
+    // Not the smoother's own: along open directions these are differences of large numbers.
+    agreement_.compare(step.head<6>(), system.solve(P * information * P).topLeftCorner<6, 6>());
+  }
+  motion_covariance_ =
+      covarianceOfMotion(before, state_.T_odom_body, covariance_before,
+                         updated.topLeftCorner<6, 6>(), cross.topLeftCorner<6, 6>());
+}
+
+bool InertialSmoother::isLost() const {
+  const double variance = covariance_.diagonal().head<3>().sum();
+  return !(variance < kLostSigma_m * kLostSigma_m) || !state_.v_odom.allFinite();
+}
+
+Mat6 InertialSmoother::motionCovariance() const {
+  return agreement_.motionFactor() * motion_covariance_;
+}
+
+}  // namespace paloc

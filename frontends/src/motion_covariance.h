@@ -1,0 +1,13 @@
+#pragma once
+
+#include "paloc/core/pose.h"
+
+namespace paloc {
+
+/// Covariance of the motion T_0^-1 T_1 (see OdometryFrame::motion_covariance) of two poses with
+/// covariances (6 x 6, tangent of Pose) and `cross` = E[error of pose 1 . error of pose 0]: errors
+/// that both share cancel.
+Mat6 covarianceOfMotion(const Pose& T_0, const Pose& T_1, const Mat6& covariance_0,
+                        const Mat6& covariance_1, const Mat6& cross);
+
+}  // namespace paloc
