@@ -9,8 +9,8 @@ namespace paloc {
 namespace {
 
 test::ProgramRun benchOf(const std::vector<std::string>& more) {
-  std::vector<std::string> arguments{"bench",      "frontends", "--sensor", "vlp-16",
-                                     "--duration", "3",         "--seeds",  "1"};
+  std::vector<std::string> arguments{"bench",      "frontends", "--sensor", "xt-32",
+                                     "--duration", "8",         "--seeds",  "1"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return test::runPaloc(arguments);
 }
