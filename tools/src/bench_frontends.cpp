@@ -156,8 +156,10 @@ FrontendRun runSimulated(const BenchFrontendsSettings& settings, const synth::Sc
   const synth::Surroundings surroundings(raycaster);
   const synth::LidarSimulator lidar(sensor, synth.T_body_lidar, scene.mesh, surroundings,
                                     timeline.motion, seed);
+  FrontendSettings frontend = frontendSettingsOf(config);
+  if (!settings.configured_imu) frontend.imu_noise = synth.imu.noise;
   Runner runner(
-      settings.frontend, frontendSettingsOf(config),
+      settings.frontend, frontend,
       [&](TimeNs t_ns) { return std::optional<Pose>(timeline.motion.at(t_ns).T_map_body); },
       stopwatch);
   synth::simulateObservations(

@@ -19,8 +19,9 @@ constexpr const char* kExample = R"(Example:
   paloc bench frontends --log recording.rawlog --truth truth.tum
 
 Runs a front-end alone, without a map, on simulated recordings (one for each seed) or on a given
-one, and compares its odometry with the truth. Drift: error of the position in percent of the way,
-at the end with the first poses laid on each other, and of the motions over 10 m of way (one begins
+one, and compares its odometry with the truth. The front-end knows the noise of the simulated IMU,
+as that of a real one from its data sheet. Drift: error of the position in percent of the way, at
+the end with the first poses laid on each other, and of the motions over 10 m of way (one begins
 every metre). RPE: RMSE of the motion from frame to frame, and over a second. NEES: of the motion
 from frame to frame in its covariance, per degree of freedom; 1 is right. Times are of the
 processor, so that others on the machine do not count.
@@ -43,6 +44,8 @@ class BenchFrontendsCommand : public Command {
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
     app_->add_option("--first-seed", settings_.first_seed, "of them")->capture_default_str();
+    app_->add_flag("--configured-imu", settings_.configured_imu,
+                   "the IMU's noise from the settings, not that of the simulated IMU");
     auto* log = app_->add_option("--log", log_, "a recording (rawlog) instead");
     auto* truth = app_->add_option("--truth", truth_, "its truth: poses of the body (TUM)");
     log->needs(truth);

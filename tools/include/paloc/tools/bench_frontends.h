@@ -16,6 +16,7 @@ namespace paloc {
 /// What `paloc bench frontends` runs.
 struct BenchFrontendsSettings {
   std::string frontend = "fast_lio";
+  bool configured_imu = false;  ///< the IMU's noise is the configuration's, not the simulated one
   std::string scene = "building";
   std::string sensor = "os1-128";
   double duration_s = 60;
