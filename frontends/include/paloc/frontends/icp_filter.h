@@ -47,7 +47,8 @@ class PALOC_EXPORT IcpFilter {
   bool isLost() const;
 
   /// Updates with a scan. `rigid`: the scan is taken without distortion: where the map's is the
-  /// same. Returns how many points have a plane within the gate, at the end.
+  /// same. Returns how many points have a plane within the gate, at the end; 0 where the
+  /// registration did not settle: then the state is its best guess, no surer than the prediction.
   std::size_t update(const std::vector<MeasuredPoint>& points, const Vec3& sensor_body,
                      const LocalVoxelMap& map, bool rigid = false);
 
