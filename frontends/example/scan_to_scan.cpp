@@ -1,8 +1,7 @@
 // An odometry of one's own, as a plugin: each scan is registered to the one before it.
 //
 //   cmake -S . -B build && cmake --build build
-//   paloc replay recording.rawlog --map map.ply --plugin build/libscan_to_scan.so --frontend
-//   scan_to_scan
+//   paloc replay LOG --map MAP --plugin build/libscan_to_scan.so --frontend scan_to_scan
 //
 // What is a front-end's work besides (which observations to take, their order, the IMU, deskewing)
 // makeTrackedOdometry() does. To do that, too, in another way, derive from OdometryFrontend.

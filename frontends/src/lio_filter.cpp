@@ -1,8 +1,5 @@
 #include "paloc/frontends/lio_filter.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "iterated_update.h"
 #include "motion_covariance.h"
 
@@ -10,6 +7,7 @@ namespace paloc {
 namespace {
 
 constexpr double kLostSigma_m = 100;
+
 using LioUpdate = IteratedUpdate<LioState, lio::kDim, 9>;
 
 // The scan's rotation is on the left, in the odom frame; the state's on the right.

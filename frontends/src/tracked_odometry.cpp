@@ -9,6 +9,7 @@
 #include "sentence_parts.h"
 
 namespace paloc {
+
 ScanTracker::~ScanTracker() = default;
 
 OdometryFrontend::Ptr makeTrackedOdometry(std::string name, std::unique_ptr<ScanTracker> tracker,
@@ -74,8 +75,7 @@ void TrackedOdometry::giveOutFrame(const LidarFrame& frame) {
       break;
     case ScanTracker::Outcome::kCoasted:
       ++counts_.coasted;
-      intake_.unused().add(frame.class_name, frame.label,
-                           "scan not registered: too few points on the local map");
+      intake_.unused().add(frame.class_name, frame.label, "scan not registered to the local map");
       break;
     case ScanTracker::Outcome::kTracked:
       break;

@@ -12,7 +12,7 @@ namespace paloc {
 
 /// How fine a local map of key frames is and how much it keeps.
 struct KeyFrameLimits {
-  double voxel_m = 0.2;  ///< as of LocalMapLimits, for planes
+  double voxel_m = 0.2;  ///< as of LocalMapSettings, for planes
   double level_factor = 2.5;
   int levels = 3;
   double line_voxel_m = 0.5;
