@@ -73,7 +73,7 @@ std::vector<CubeTable::Run> CubeTable::runsIn(const PointBlock* blocks, std::siz
   for (std::size_t i = begin; i < end; ++i) {
     const std::uint64_t key = keyOf(cubeOf(pointAt(blocks, i)));
     if (runs.empty() || runs.back().cube != key) {
-      runs.push_back({key, static_cast<std::uint32_t>(i), 0});
+      runs.push_back({key, static_cast<std::uint32_t>(i), 0, 0});
     }
     ++runs.back().count;
   }
@@ -85,11 +85,13 @@ void CubeTable::fill(const std::vector<std::vector<Run>>& parts) {
   for (const auto& runs : parts) count += runs.size();
   slots_ = RawArray<Run>(std::bit_ceil(std::max(2 * count, kLeastSlots)));
   mask_ = slots_.size() - 1;
-  std::fill(slots_.begin(), slots_.end(), Run{kFree, 0, 0});
+  std::fill(slots_.begin(), slots_.end(), Run{kFree, 0, 0, 0});
   for (const auto& runs : parts) {
     for (const Run& run : runs) {
       std::size_t at = slotOf(run.cube);
-      while (slots_[at].cube != kFree) at = (at + 1) & mask_;
+      for (; slots_[at].cube != kFree; at = (at + 1) & mask_) {
+        if (slots_[at].cube == run.cube) slots_[at].more = 1;
+      }
       slots_[at] = run;
     }
   }

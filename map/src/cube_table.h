@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "paloc/core/types.h"
 #include "point_block.h"
+#include "prefetch.h"
 #include "raw_array.h"
 #include "voxel_key.h"
 
@@ -22,7 +25,9 @@ class CubeTable {
   /// A number of points that follow each other in one cube.
   struct Run {
     std::uint64_t cube;
-    std::uint32_t first, count;
+    std::uint32_t first, count : 31, more : 1;  // whether the cube has more runs
+
+    std::uint32_t last() const { return first + count - 1; }
   };
   using Cube = std::array<std::uint32_t, 3>;  ///< numbers of a cube along x, y, z
 
@@ -35,36 +40,33 @@ class CubeTable {
   double edge() const { return edge_m_; }  ///< of a cube (m)
   std::size_t bytes() const { return slots_.size() * sizeof(Run); }
 
-  Cube cubeOf(const Point3f& p) const { return cubeOf(p, 0); }
-  /// Of the point moved by `by_m` along each axis.
-  Cube cubeOf(const Point3f& p, double by_m) const {
-    const auto moved = [by_m](float value) { return static_cast<double>(value) + by_m; };
-    return {numberOf(moved(p.x), low_[0]), numberOf(moved(p.y), low_[1]),
-            numberOf(moved(p.z), low_[2])};
+  Cube cubeOf(const Point3f& p) const {
+    return {numberOf(p.x, low_[0]), numberOf(p.y, low_[1]), numberOf(p.z, low_[2])};
   }
-  /// Squares of the distances along each axis (m2) from a point to those cubes beside its own that
-  /// begin with `lowest`: to the one below where that is lower than its own, else to the one above.
-  std::array<double, 3> distancesSq(const Point3f& p, const Cube& lowest, const Cube& own) const {
-    const std::array<float, 3> at{p.x, p.y, p.z};
-    std::array<double, 3> distances_sq{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double begin = low_[axis] + edge_m_ * own[axis];
-      const double inside = static_cast<double>(at[axis]) - begin;
-      const double off = lowest[axis] < own[axis] ? inside : edge_m_ - inside;
-      distances_sq[axis] = off * off;
-    }
-    return distances_sq;
-  }
-  /// Fetches what visit() will need first.
-  void prefetch(const Cube& cube) const { __builtin_prefetch(&slots_[slotOf(keyOf(cube))]); }
+  /// A cube that is looked at on the way to a point, in two steps: prefetch(), then open().
+  struct Place {
+    std::uint64_t cube;
+    float apart_sq;  // square of the distance from the point (m2)
+    const Run* run;  // its first run, once it is opened; null: no point in it
+  };
+  /// The cube of a point, and the distances to its neighbours.
+  struct Surroundings {
+    Place home;
+    // Squares of the distances to the neighbours below and above, along each axis (m2).
+    std::array<float, 3> below_sq, above_sq;
+  };
+  Surroundings about(const Point3f& p) const;
+  using Neighbours = std::array<Place, 27>;
+  /// The neighbours of the cube, along all axes, within a distance of the point; their number.
+  static std::size_t neighboursWithin(float distance_sq, const Surroundings& about,
+                                      Neighbours& neighbours);
 
-  /// Calls visit(first, count) for each run of points in the cube.
-  template <typename Visit>
-  void visit(const Cube& cube, const Visit& visit) const {
-    const std::uint64_t key = keyOf(cube);
-    for (std::size_t at = slotOf(key); slots_[at].cube != kFree; at = (at + 1) & mask_) {
-      if (slots_[at].cube == key) visit(slots_[at].first, slots_[at].count);
-    }
+  void prefetch(const Place& place) const { paloc::prefetch(&slots_[slotOf(place.cube)]); }
+  void open(Place& place) const { place.run = find(slotOf(place.cube), place.cube); }
+  /// The next run of the same cube, or null.
+  const Run* next(const Run* run) const {
+    if (run->more == 0) return nullptr;
+    return find((static_cast<std::size_t>(run - slots_.data()) + 1) & mask_, run->cube);
   }
 
  private:
@@ -77,9 +79,16 @@ class CubeTable {
     return std::uint64_t{cube[0]} << 2 * kVoxelBits | std::uint64_t{cube[1]} << kVoxelBits |
            std::uint64_t{cube[2]};
   }
-  std::uint32_t numberOf(double value, double from) const {
-    const double number = (value - from) * inverse_;
-    return static_cast<std::uint32_t>(std::min(std::max(number, 0.0), 2 * kVoxelLimit - 1));
+  std::uint32_t numberOf(float value, double from) const {
+    const double number = (static_cast<double>(value) - from) * inverse_;
+    const double bounded = std::min(std::max(number, 0.0), 2 * kVoxelLimit - 1);
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(bounded));  // the quicker way
+  }
+  const Run* find(std::size_t at, std::uint64_t key) const {
+    for (; slots_[at].cube != kFree; at = (at + 1) & mask_) {
+      if (slots_[at].cube == key) return &slots_[at];
+    }
+    return nullptr;
   }
   std::size_t slotOf(std::uint64_t key) const { return hashKey(key) & mask_; }
   void setEdge(double edge_m) { edge_m_ = edge_m, inverse_ = 1 / edge_m; }
@@ -92,5 +101,45 @@ class CubeTable {
   std::size_t mask_ = 0;
   RawArray<Run> slots_;
 };
+
+inline CubeTable::Surroundings CubeTable::about(const Point3f& p) const {
+  Surroundings about;
+  const Cube home = cubeOf(p);
+  about.home = {keyOf(home), 0, nullptr};
+  const std::array<float, 3> at{p.x, p.y, p.z};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double begin = low_[axis] + edge_m_ * home[axis];
+    const double inside = static_cast<double>(at[axis]) - begin, left = edge_m_ - inside;
+    // Below the first cube there is none.
+    about.below_sq[axis] = home[axis] > 0 ? static_cast<float>(inside * inside)
+                                          : std::numeric_limits<float>::infinity();
+    about.above_sq[axis] = static_cast<float>(left * left);
+  }
+  return about;
+}
+
+inline std::size_t CubeTable::neighboursWithin(float distance_sq, const Surroundings& about,
+                                               Neighbours& neighbours) {
+  std::size_t count = 1;
+  neighbours[0] = about.home;
+  // Of those found so far, and of the cube itself, the neighbours along one axis more.
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::uint64_t step = std::uint64_t{1} << (2 - axis) * kVoxelBits;
+    const float below_sq = about.below_sq[axis], above_sq = about.above_sq[axis];
+    if (below_sq > distance_sq && above_sq > distance_sq) continue;
+    const std::size_t before = count;
+    for (std::size_t i = 0; i < before; ++i) {
+      const auto [cube, apart_sq, run] = neighbours[i];
+      if (apart_sq + below_sq <= distance_sq) {
+        neighbours[count++] = {cube - step, apart_sq + below_sq, nullptr};
+      }
+      if (apart_sq + above_sq <= distance_sq) {
+        neighbours[count++] = {cube + step, apart_sq + above_sq, nullptr};
+      }
+    }
+  }
+  neighbours[0] = neighbours[--count];
+  return count;
+}
 
 }  // namespace paloc

@@ -1,8 +1,6 @@
 #include "point_index.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "parallel_chunks.h"
 
@@ -10,8 +8,6 @@ namespace paloc {
 namespace {
 
 constexpr std::size_t kChunk = 4096;
-constexpr double kRoundedUp = 1 + 1e-5;
-constexpr double kMaxReach = 0.5;  // in edges of a cube: beyond, the tree has less to look at
 
 }  // namespace
 
@@ -73,57 +69,10 @@ PointIndex::PointIndex(const RawArray<PointBlock>& blocks, std::size_t points, d
   cubes_ = CubeTable(blocks_, points_, {low.x(), low.y(), low.z()}, voxel_m, arena);
 }
 
-void PointIndex::searchCube(const CubeTable::Cube& cube, const Point3f& query, Found& best) const {
-  cubes_.visit(cube, [&](std::uint32_t first, std::uint32_t count) {
-    const auto last = static_cast<std::uint32_t>((first + count - 1) / PointBlock::kPoints);
-    for (auto b = static_cast<std::uint32_t>(first / PointBlock::kPoints); b <= last; ++b) {
-      searchBlock(
-          b, query, [](std::uint32_t) { return true; }, best);
-    }
-  });
-}
-
-void PointIndex::prefetchPoints(const Point3f& query) const {
-  cubes_.visit(cubes_.cubeOf(query), [&](std::uint32_t first, std::uint32_t count) {
-    constexpr std::size_t kLine = 64;
-    const auto* at = reinterpret_cast<const char*>(blocks_ + first / PointBlock::kPoints);
-    const auto* end =
-        reinterpret_cast<const char*>(blocks_ + (first + count - 1) / PointBlock::kPoints + 1);
-    for (; at < end; at += kLine) __builtin_prefetch(at);
-  });
-}
-
-// The cube of the query mostly holds a point; what is nearer lies in it or in a cube beside it.
 PointIndex::Found PointIndex::nearest(const Point3f& query, float nearer_than_sq) const {
-  const auto any = [](std::uint32_t) { return true; };
-  if (points_ == 0) return {kNone, nearer_than_sq};
-  Found best{kNone, nearer_than_sq};
-  const CubeTable::Cube home = cubes_.cubeOf(query);
-  searchCube(home, query, best);
-  const double reach = std::sqrt(static_cast<double>(best.distance_sq)) * kRoundedUp;
-  if (reach > kMaxReach * cubes_.edge()) {
-    const Found found = nearest(query, best.distance_sq, any);
-    return found.index == kNone ? best : found;
-  }
-  const CubeTable::Cube low = cubes_.cubeOf(query, -reach), high = cubes_.cubeOf(query, reach);
-  const std::array<double, 3> off = cubes_.distancesSq(query, low, home);
-  const auto apart = [&](const CubeTable::Cube& cube) {
-    double sum = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) sum += cube[axis] == home[axis] ? 0 : off[axis];
-    return sum;
-  };
-  CubeTable::Cube cube;
-  for (cube[0] = low[0]; cube[0] <= high[0]; ++cube[0]) {
-    for (cube[1] = low[1]; cube[1] <= high[1]; ++cube[1]) {
-      for (cube[2] = low[2]; cube[2] <= high[2]; ++cube[2]) {
-        if (cube == home || apart(cube) > kRoundedUp * static_cast<double>(best.distance_sq)) {
-          continue;
-        }
-        searchCube(cube, query, best);
-      }
-    }
-  }
-  return best;
+  Sought sought{query, {kNone, nearer_than_sq}};
+  if (points_ > 0) searchTogether({&sought, 1}, AnyPoint());
+  return sought.best;
 }
 
 std::size_t PointIndex::bytes() const {

@@ -2,6 +2,8 @@
 
 #include <tbb/task_arena.h>
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -13,6 +15,7 @@
 #include "lanes4.h"
 #include "paloc/core/types.h"
 #include "point_block.h"
+#include "prefetch.h"
 #include "raw_array.h"
 
 namespace paloc {
@@ -61,9 +64,22 @@ class PointIndex {
   Found nearest(const Point3f& query, float nearer_than_sq, const Accept& accept) const;
   Found nearest(const Point3f& query, float nearer_than_sq) const;
 
-  /// Fetches what a search for the nearest will need, in two steps, so that it need not wait.
-  void prefetchTable(const Point3f& query) const { cubes_.prefetch(cubes_.cubeOf(query)); }
-  void prefetchPoints(const Point3f& query) const;
+  /// Accepts every point.
+  struct AnyPoint {
+    bool operator()(std::uint32_t) const { return true; }
+    void prefetch(std::size_t) const {}
+  };
+
+  /// A search, and what is to be improved upon: the nearest point known, or none within a distance.
+  struct Sought {
+    Point3f query;
+    Found best;
+  };
+  static constexpr std::size_t kTogether = 16;
+  /// As many searches, at most, at once: they take turns, so that while the memory for one comes
+  /// another goes on. `accept.prefetch(block)` fetches what accept(index) will need of a block.
+  template <typename Accept>
+  void searchTogether(std::span<Sought> sought, const Accept& accept) const;
 
   /// Calls visit(block) for every block whose box is nearer than the given distance, in a fixed
   /// order.
@@ -95,7 +111,15 @@ class PointIndex {
   template <typename Accept>
   void searchBlock(std::uint32_t block, const Point3f& query, const Accept& accept,
                    Found& best) const;
-  void searchCube(const CubeTable::Cube& cube, const Point3f& query, Found& best) const;
+  void searchRun(const CubeTable::Run& run, const Point3f& query, AnyPoint, Found& best) const;
+  template <typename Accept>
+  void searchRun(const CubeTable::Run& run, const Point3f& query, const Accept& accept,
+                 Found& best) const;
+  template <typename Accept>
+  void searchCube(const CubeTable::Place& cube, const Point3f& query, const Accept& accept,
+                  Found& best) const;
+  template <typename Accept>
+  void prefetchRun(const CubeTable::Place& cube, const Accept& accept) const;
 
   const PointBlock* blocks_ = nullptr;
   std::size_t block_count_ = 0, points_ = 0;
@@ -179,6 +203,101 @@ PointIndex::Found PointIndex::nearest(const Point3f& query, float nearer_than_sq
     }
   }
   return best;
+}
+
+// Lane by lane, without a branch: where the nearest is cannot be foreseen.
+inline void PointIndex::searchRun(const CubeTable::Run& run, const Point3f& query, AnyPoint,
+                                  Found& best) const {
+  constexpr std::size_t kPoints = PointBlock::kPoints;
+  Float4 nearest_sq = all4(best.distance_sq);
+  Mask4 nearest{}, at{0, 1, 2, 3};
+  const std::size_t first = run.first / kPoints;
+  for (const PointBlock* block = blocks_ + first; block <= blocks_ + run.last() / kPoints;
+       ++block) {
+    for (std::size_t lane = 0; lane < kPoints; lane += 4, at += 4) {
+      const Float4 dx = load4(block->x + lane) - query.x, dy = load4(block->y + lane) - query.y,
+                   dz = load4(block->z + lane) - query.z;
+      const Float4 distance_sq = dx * dx + dy * dy + dz * dz;
+      const Mask4 nearer = distance_sq < nearest_sq;
+      nearest_sq = nearer ? distance_sq : nearest_sq;
+      nearest = nearer ? at : nearest;
+    }
+  }
+  for (std::size_t lane = 0; lane < 4; ++lane) {
+    if (nearest_sq[lane] >= best.distance_sq) continue;
+    best = {static_cast<std::uint32_t>(first * kPoints) + static_cast<std::uint32_t>(nearest[lane]),
+            nearest_sq[lane]};
+  }
+}
+
+template <typename Accept>
+void PointIndex::searchRun(const CubeTable::Run& run, const Point3f& query, const Accept& accept,
+                           Found& best) const {
+  constexpr std::uint32_t kPoints = PointBlock::kPoints;
+  for (std::uint32_t b = run.first / kPoints; b <= run.last() / kPoints; ++b) {
+    searchBlock(b, query, accept, best);
+  }
+}
+
+template <typename Accept>
+void PointIndex::searchCube(const CubeTable::Place& cube, const Point3f& query,
+                            const Accept& accept, Found& best) const {
+  for (const CubeTable::Run* run = cube.run; run != nullptr; run = cubes_.next(run)) {
+    searchRun(*run, query, accept, best);
+  }
+}
+
+template <typename Accept>
+void PointIndex::prefetchRun(const CubeTable::Place& cube, const Accept& accept) const {
+  if (cube.run == nullptr) return;
+  constexpr std::size_t kLine = 64, kPoints = PointBlock::kPoints;
+  const std::size_t first = cube.run->first / kPoints, last = cube.run->last() / kPoints;
+  const auto* at = reinterpret_cast<const char*>(blocks_ + first);
+  const auto* end = reinterpret_cast<const char*>(blocks_ + last + 1);
+  for (; at < end; at += kLine) prefetch(at);
+  for (std::size_t b = first; b <= last; ++b) accept.prefetch(b);
+}
+
+// The cube of a query mostly holds a point; what is nearer lies in it or in a cube beside it. Where
+// that is further off than a cube is wide, the tree tells.
+template <typename Accept>
+void PointIndex::searchTogether(std::span<Sought> sought, const Accept& accept) const {
+  constexpr float kRoundedUp = 1 + 1e-5F;
+  const auto edge_sq = static_cast<float>(cubes_.edge() * cubes_.edge());
+  std::array<CubeTable::Surroundings, kTogether> about;
+  std::array<CubeTable::Neighbours, kTogether> neighbours;
+  std::array<std::size_t, kTogether> counts;
+  for (std::size_t i = 0; i < sought.size(); ++i) {
+    about[i] = cubes_.about(sought[i].query);
+    cubes_.prefetch(about[i].home);
+  }
+  for (std::size_t i = 0; i < sought.size(); ++i) {
+    cubes_.open(about[i].home);
+    prefetchRun(about[i].home, accept);
+  }
+  for (std::size_t i = 0; i < sought.size(); ++i) {
+    Found& best = sought[i].best;
+    searchCube(about[i].home, sought[i].query, accept, best);
+    const float within_sq = kRoundedUp * std::min(best.distance_sq, edge_sq);
+    counts[i] = CubeTable::neighboursWithin(within_sq, about[i], neighbours[i]);
+    for (std::size_t k = 0; k < counts[i]; ++k) cubes_.prefetch(neighbours[i][k]);
+  }
+  for (std::size_t i = 0; i < sought.size(); ++i) {
+    for (std::size_t k = 0; k < counts[i]; ++k) {
+      cubes_.open(neighbours[i][k]);
+      prefetchRun(neighbours[i][k], accept);
+    }
+  }
+  for (std::size_t i = 0; i < sought.size(); ++i) {
+    auto& [query, best] = sought[i];
+    for (std::size_t k = 0; k < counts[i]; ++k) {
+      if (neighbours[i][k].apart_sq > kRoundedUp * best.distance_sq) continue;
+      searchCube(neighbours[i][k], query, accept, best);
+    }
+    if (best.distance_sq <= edge_sq) continue;
+    const Found found = nearest(query, best.distance_sq, accept);
+    if (found.index != kNone) best = found;
+  }
 }
 
 template <typename Visit>

@@ -3,6 +3,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -18,6 +19,7 @@
 #include "plane_store.h"
 #include "point_index.h"
 #include "point_vector.h"
+#include "prefetch.h"
 
 namespace paloc {
 namespace {
@@ -42,9 +44,34 @@ struct PriorMap::Data {
   PreparedMap map;
   PointIndex index;  // refers to it
   Statistics statistics;
+
+  void nearestSeen(const Point3f& viewer, float max_distance_sq, std::span<const Query> queries,
+                   std::span<Nearest> answers) const;
 };
 
 namespace {
+
+/// Accepts points that can be seen from somewhere.
+class SeenPoints {
+ public:
+  SeenPoints(const PointIndex& index, const PlaneStore& planes, const Point3f& viewer)
+      : index_(index), planes_(planes), viewer_(toVec3f(viewer)) {}
+
+  bool operator()(std::uint32_t i) const {
+    return !planes_[i].oriented() ||
+           planes_[i].normal().dot(viewer_ - toVec3f(index_.point(i))) > 0;
+  }
+  void prefetch(std::size_t block) const {
+    const PackedPlane* const planes = planes_.data() + block * PointBlock::kPoints;
+    paloc::prefetch(planes);
+    paloc::prefetch(planes + PointBlock::kPoints / 2);
+  }
+
+ private:
+  const PointIndex& index_;
+  const PlaneStore& planes_;
+  Eigen::Vector3f viewer_;
+};
 
 // What ordering takes, and then the index and the planes, on top of the points themselves.
 void requireMemory(std::size_t points, const std::string& name) {
@@ -181,41 +208,51 @@ PriorMap::Nearest nearestOf(const PointIndex::Found& found) {
 
 }  // namespace
 
+// Of no more searches than can take turns. Most find a point that is seen at once; only for the
+// others the planes of all points about are looked at.
+void PriorMap::Data::nearestSeen(const Point3f& viewer, float max_distance_sq,
+                                 std::span<const Query> queries, std::span<Nearest> answers) const {
+  std::array<PointIndex::Sought, PointIndex::kTogether> sought;
+  const std::span searches(sought.data(), queries.size());
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    const auto& [local, hint] = queries[i];
+    sought[i] = {local, {PointIndex::kNone, max_distance_sq}};
+    if (hint == kNoPoint) continue;
+    const float distance_sq = (toVec3f(index.point(hint)) - toVec3f(local)).squaredNorm();
+    if (distance_sq < max_distance_sq) sought[i].best = {hint, distance_sq};
+  }
+  index.searchTogether(searches, PointIndex::AnyPoint());
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    answers[i] = nearestOf(sought[i].best);
+    if (answers[i].found()) paloc::prefetch(&map.planes[answers[i].index]);
+  }
+  const SeenPoints seen(index, map.planes, viewer);
+  std::array<std::size_t, PointIndex::kTogether> unseen;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    if (!answers[i].found() || seen(answers[i].index)) continue;
+    sought[count] = {queries[i].local, {PointIndex::kNone, max_distance_sq}};
+    unseen[count++] = i;
+  }
+  index.searchTogether(searches.first(count), seen);
+  for (std::size_t k = 0; k < count; ++k) {
+    const Nearest nearest = nearestOf(sought[k].best);
+    if (nearest.found()) answers[unseen[k]] = nearest;
+  }
+}
+
 PriorMap::Nearest PriorMap::nearest(const Point3f& local, float max_distance_m) const {
   return nearestOf(data_->index.nearest(local, max_distance_m * max_distance_m));
 }
 
-// In groups whose searches take turns: while the memory for one comes, another goes on.
+// In groups whose searches take turns.
 void PriorMap::nearestSeenFrom(const Point3f& viewer, float max_distance_m,
                                std::span<const Query> queries, std::span<Nearest> answers) const {
-  const PointIndex& index = data_->index;
-  const PlaneStore& planes = data_->map.planes;
-  const float max_distance_sq = max_distance_m * max_distance_m;
-  const auto canBeSeen = [&](std::uint32_t i) {
-    return !planes[i].oriented() ||
-           planes[i].normal().dot(toVec3f(viewer) - toVec3f(index.point(i))) > 0;
-  };
-  constexpr std::size_t kGroup = 16;
+  constexpr std::size_t kGroup = PointIndex::kTogether;
   for (std::size_t begin = 0; begin < queries.size(); begin += kGroup) {
-    const std::size_t end = std::min(begin + kGroup, queries.size());
-    for (std::size_t i = begin; i < end; ++i) index.prefetchTable(queries[i].local);
-    for (std::size_t i = begin; i < end; ++i) index.prefetchPoints(queries[i].local);
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto& [local, hint] = queries[i];
-      PointIndex::Found bound{PointIndex::kNone, max_distance_sq};
-      if (hint != kNoPoint) {
-        const float distance_sq = (toVec3f(index.point(hint)) - toVec3f(local)).squaredNorm();
-        if (distance_sq < bound.distance_sq) bound = {hint, distance_sq};
-      }
-      const PointIndex::Found nearer = index.nearest(local, bound.distance_sq);
-      answers[i] = nearestOf(nearer.index == PointIndex::kNone ? bound : nearer);
-      if (answers[i].found()) __builtin_prefetch(&planes[answers[i].index]);
-    }
-    for (std::size_t i = begin; i < end; ++i) {
-      if (!answers[i].found() || canBeSeen(answers[i].index)) continue;
-      const PointIndex::Found seen = index.nearest(queries[i].local, max_distance_sq, canBeSeen);
-      if (seen.index != PointIndex::kNone) answers[i] = nearestOf(seen);
-    }
+    const std::size_t count = std::min(kGroup, queries.size() - begin);
+    data_->nearestSeen(viewer, max_distance_m * max_distance_m, queries.subspan(begin, count),
+                       answers.subspan(begin, count));
   }
 }
 

@@ -104,6 +104,52 @@ INSTANTIATE_TEST_SUITE_P(Maps, NearestNearTheMap,
                                          NearMap{{3000, -2500, 40}, 0.1F, 0.05},
                                          NearMap{{12, 30, 1}, 1.0F, 0.05}));
 
+// A room with walls of 12 cm, looked at from its middle: many a query lies nearer to a face that
+// cannot be seen from there.
+TEST(PriorMap, TheNearestThatCanBeSeenEqualsBruteForce) {
+  PointCloud cloud;
+  std::mt19937 random(6);
+  std::uniform_real_distribution<float> along(-3, 3);
+  std::normal_distribution<float> noise(0, 0.002F);
+  for (const float face : {-2.12F, -2.0F, 2.0F, 2.12F}) {
+    for (int i = 0; i < 4000; ++i) {
+      cloud.points.push_back({face + noise(random), along(random), 0.5F * along(random)});
+    }
+  }
+  const auto map = PriorMap::build(cloud, {});
+  const Vec3 viewer(0.1, -0.2, 0.1);
+  const auto vec = [](const Point3f& p) { return Vec3(p.x, p.y, p.z); };
+  const auto seen = [&](std::uint32_t i) {
+    const MapPlane plane = map->plane(i);
+    return !plane.oriented ||
+           Vec3(plane.nx, plane.ny, plane.nz).dot(viewer - vec(map->point(i))) > 0;
+  };
+  const float within_m = 0.6F;  // wider than a cube of the index
+  std::vector<PriorMap::Query> queries;
+  std::uniform_real_distribution<float> across(1.7F, 2.5F);
+  for (int i = 0; i < 400; ++i) {
+    const float side = i % 2 == 0 ? 1 : -1;
+    queries.push_back({{side * across(random), along(random), 0.5F * along(random)}});
+  }
+  std::vector<PriorMap::Nearest> found(queries.size());
+  map->nearestSeenFrom({0.1F, -0.2F, 0.1F}, within_m, queries, found);
+  int behind = 0;
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    double any_sq = within_m * within_m, seen_sq = any_sq;
+    for (std::uint32_t k = 0; k < map->size(); ++k) {
+      const double sq = (vec(map->point(k)) - vec(queries[i].local)).squaredNorm();
+      any_sq = std::min(any_sq, sq);
+      if (sq < seen_sq && seen(k)) seen_sq = sq;
+    }
+    behind += seen_sq > any_sq && seen_sq < within_m * within_m;
+    ASSERT_TRUE(found[i].found());
+    // Where none can be seen, the nearest of all.
+    const double expected_sq = seen_sq < within_m * within_m ? seen_sq : any_sq;
+    EXPECT_NEAR(std::sqrt(found[i].distance_sq), std::sqrt(expected_sq), 1e-5) << i;
+  }
+  EXPECT_GT(behind, 50);
+}
+
 TEST(PriorMap, PointsInOnePlaceMakeNoPlane) {
   PointCloud cloud;
   cloud.points.assign(500, {1, 2, 3});
