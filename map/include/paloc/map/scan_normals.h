@@ -23,11 +23,15 @@ class PALOC_EXPORT ScanNormals {
   Vec3 at(const Point3f& point, double radius_m) const;
 
  private:
-  std::size_t countNear(std::size_t point, double radius_m) const;
+  std::size_t countNear(const Point3f& point, double radius_m) const;
+  template <typename Visit>
+  void visitNear(const Point3f& point, double radius_m, const Visit& visit) const;
 
-  // Side by side, so that four are tried at once; filled up with what lies too far away. A few
-  // hundred passes over some thousand points cost less than an index over them.
+  // Side by side, so that four are tried at once; filled up with what lies too far away. Points
+  // that follow each other in a scan lie near to each other: a few hundred passes over the boxes
+  // about every sixteen of them cost less than an index.
   std::vector<float> x_, y_, z_;
+  std::vector<float> low_[3], high_[3];  // of the boxes
   std::size_t size_ = 0;
 };
 
