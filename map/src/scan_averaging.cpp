@@ -14,9 +14,11 @@ constexpr std::size_t kCellsAcross = 64;
 constexpr std::size_t kCells = 6 * kCellsAcross * kCellsAcross;
 // Of a return from its seed: farther apart on a wall, it may be on another one.
 constexpr float kReachM = 0.08F;
+// Of the returns, each summed up by itself: so many whatever the threads, for the same sums.
+constexpr std::size_t kParts = 8;
 constexpr double kNoiseSigmas = 3;  // of the difference of two ranges
 
-std::size_t cellOf(const Point3f& ray) {
+inline std::size_t cellOf(const Point3f& ray) {
   const float ax = std::abs(ray.x), ay = std::abs(ray.y), az = std::abs(ray.z);
   const bool x_leads = ax >= ay && ax >= az, y_leads = !x_leads && ay >= az;
   const float lead = x_leads ? ray.x : y_leads ? ray.y : ray.z;
@@ -52,14 +54,12 @@ AveragedPoints AveragedPoints::everyNth(std::size_t count) const {
   return some;
 }
 
-AveragedPoints ScanAveraging::average(std::span<const Point3f> returns,
-                                      std::span<const std::uint32_t> seeds,
-                                      const Vec3& sensor_position, double range_noise_m) {
-  const Point3f sensor{static_cast<float>(sensor_position.x()),
-                       static_cast<float>(sensor_position.y()),
-                       static_cast<float>(sensor_position.z())};
-  const auto same_range = static_cast<float>(kNoiseSigmas * std::numbers::sqrt2 * range_noise_m);
-  const float reach_sq = kReachM * kReachM + same_range * same_range;
+void inTurn(std::size_t count, const std::function<void(std::size_t)>& job) {
+  for (std::size_t i = 0; i < count; ++i) job(i);
+}
+
+void ScanAveraging::sortSeeds(std::span<const Point3f> returns,
+                              std::span<const std::uint32_t> seeds, const Point3f& sensor) {
   first_in_cell_.assign(kCells, -1);
   seeds_.clear();
   for (const std::uint32_t index : seeds) {
@@ -71,33 +71,68 @@ AveragedPoints ScanAveraging::average(std::span<const Point3f> returns,
     first = static_cast<std::int32_t>(seeds_.size());
     seeds_.push_back(seed);
   }
+}
+
+// Adds each of the returns to its seed.
+void ScanAveraging::sumUp(std::span<const Point3f> returns, const Point3f& sensor, float same_range,
+                          std::span<Sum> sums) const {
+  const float reach_sq = kReachM * kReachM + same_range * same_range;
   for (const Point3f& point : returns) {
     const Point3f ray = between(sensor, point);
-    Seed* nearest = nullptr;
+    std::int32_t nearest = -1;
     float nearest_sq = reach_sq;
     for (std::int32_t k = first_in_cell_[cellOf(ray)]; k >= 0;) {
-      Seed& seed = seeds_[static_cast<std::size_t>(k)];
+      const Seed& seed = seeds_[static_cast<std::size_t>(k)];
       const float apart_sq = normSq(between(seed.ray, ray));
       if (apart_sq < nearest_sq && std::abs(std::sqrt(normSq(ray)) - seed.range) < same_range) {
-        nearest = &seed;
+        nearest = k;
         nearest_sq = apart_sq;
       }
       k = seed.next;
     }
-    if (nearest == nullptr) continue;
-    nearest->x += ray.x - nearest->ray.x;
-    nearest->y += ray.y - nearest->ray.y;
-    nearest->z += ray.z - nearest->ray.z;
-    ++nearest->count;
+    if (nearest < 0) continue;
+    const Point3f& seed_ray = seeds_[static_cast<std::size_t>(nearest)].ray;
+    Sum& sum = sums[static_cast<std::size_t>(nearest)];
+    sum.x += ray.x - seed_ray.x;
+    sum.y += ray.y - seed_ray.y;
+    sum.z += ray.z - seed_ray.z;
+    ++sum.count;
   }
+}
+
+AveragedPoints ScanAveraging::average(std::span<const Point3f> returns,
+                                      std::span<const std::uint32_t> seeds,
+                                      const Vec3& sensor_position, double range_noise_m,
+                                      const RunJobs& run) {
+  const Point3f sensor{static_cast<float>(sensor_position.x()),
+                       static_cast<float>(sensor_position.y()),
+                       static_cast<float>(sensor_position.z())};
+  const auto same_range = static_cast<float>(kNoiseSigmas * std::numbers::sqrt2 * range_noise_m);
+  sortSeeds(returns, seeds, sensor);
+  sums_.resize(kParts * seeds_.size());
+  const std::size_t part_size = (returns.size() + kParts - 1) / kParts;
+  run(kParts, [&](std::size_t part) {
+    const std::size_t begin = std::min(part * part_size, returns.size());
+    const std::size_t size = std::min(part_size, returns.size() - begin);
+    const auto sums = std::span(sums_).subspan(part * seeds_.size(), seeds_.size());
+    std::fill(sums.begin(), sums.end(), Sum{});
+    sumUp(returns.subspan(begin, size), sensor, same_range, sums);
+  });
   AveragedPoints averaged;
+  averaged.points.reserve(seeds_.size());
+  averaged.returns.reserve(seeds_.size());
   for (std::size_t k = 0; k < seeds_.size(); ++k) {
-    const Seed& seed = seeds_[k];
-    const int count = std::max(seed.count, 1);
+    Sum sum;
+    for (std::size_t part = 0; part < kParts; ++part) {
+      const Sum& more = sums_[part * seeds_.size() + k];
+      sum.x += more.x, sum.y += more.y, sum.z += more.z;
+      sum.count += more.count;
+    }
+    const int count = std::max(sum.count, 1);
     const float share = 1 / static_cast<float>(count);
     const Point3f& own = returns[seeds[k]];
     averaged.points.push_back(
-        {own.x + share * seed.x, own.y + share * seed.y, own.z + share * seed.z});
+        {own.x + share * sum.x, own.y + share * sum.y, own.z + share * sum.z});
     averaged.returns.push_back(static_cast<std::uint16_t>(std::min(count, 65535)));
   }
   return averaged;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include "paloc/core/mrpt_pose.h"
@@ -13,6 +14,7 @@
 #include "paloc/map/scan_normals.h"
 #include "paloc/map/scan_thinning.h"
 #include "paloc/map/spectrum.h"
+#include "parallel_chunks.h"
 #include "registration.h"
 #include "rough_start.h"
 #include "start_finder.h"
@@ -183,8 +185,11 @@ class ScanMatcher::Work {
     const std::vector<std::uint32_t> kept =
         thinning_.select(scan.points_body, scan.sensor_position_body,
                          static_cast<std::size_t>(std::max(settings_.max_points, 1)));
+    const auto run = [this](std::size_t count, const std::function<void(std::size_t)>& job) {
+      forEachChunk(arena_, count, 1, [&job](std::size_t i, std::size_t, std::size_t) { job(i); });
+    };
     return averaging_.average(scan.points_body, kept, scan.sensor_position_body,
-                              settings_.range_noise_m);
+                              settings_.range_noise_m, run);
   }
 
   bool tooFew(MapMatch& answer) const {

@@ -85,6 +85,26 @@ TEST(ScanAveraging, AnotherSurfaceBehindDoesNotCount) {
   }
 }
 
+TEST(ScanAveraging, TheOrderOfItsJobsChangesNothing) {
+  const std::vector<Point3f> points = noisyWalls([](const Vec3& ray) { return 3 + ray.z(); });
+  const std::vector<std::uint32_t> seeds = everyNthIndex(points, 41);
+  std::size_t jobs = 0;
+  const RunJobs backwards = [&](std::size_t count, const std::function<void(std::size_t)>& job) {
+    for (std::size_t i = count; i-- > 0; ++jobs) job(i);
+  };
+  ScanAveraging averaging;
+  const AveragedPoints first = averaging.average(points, seeds, kSensor, kNoiseM);
+  const AveragedPoints again = averaging.average(points, seeds, kSensor, kNoiseM, backwards);
+  EXPECT_GT(jobs, 1U);
+  EXPECT_EQ(first.returns, again.returns);
+  ASSERT_EQ(first.points.size(), again.points.size());
+  for (std::size_t i = 0; i < first.points.size(); ++i) {
+    EXPECT_EQ(first.points[i].x, again.points[i].x);
+    EXPECT_EQ(first.points[i].y, again.points[i].y);
+    EXPECT_EQ(first.points[i].z, again.points[i].z);
+  }
+}
+
 TEST(ScanAveraging, OddPointsAreHarmless) {
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN(),
                   kInf = std::numeric_limits<float>::infinity();
