@@ -11,10 +11,10 @@ constexpr double kAnchorSigma = 1e-4;  // m or rad: holds a free direction at th
 
 }  // namespace
 
-void Anchors::hold(const ObservedDirections& observed) {
+void Anchors::hold(const std::array<MatchDirection, 6>& directions) {
   axes_.clear();
   for (std::size_t i = 0; i < 6; ++i) {
-    const MatchDirection& direction = observed.directions[i];
+    const MatchDirection& direction = directions[i];
     if (direction.cls != DirectionClass::kNone) continue;
     Vec6 axis = Vec6::Zero();
     axis.segment<3>(i < 3 ? 0 : 3) = direction.axis_body;

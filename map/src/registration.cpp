@@ -4,20 +4,24 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "alignment_step.h"
+#include "median.h"
 #include "parallel_chunks.h"
 #include "point_vector.h"
 
 namespace paloc {
 namespace {
 
-constexpr std::size_t kChunk = 256;
+constexpr std::size_t kChunk = 64;  // so small that the first steps, too, are shared among threads
 constexpr double kMinIncidenceCosine =
     0.1;  // flatter rays say little and are biased by their footprint
 constexpr double kNoiseCosine =
-    0.2;                         // below it the range noise counts no less: the beam has a width
+    0.2;  // below it the range noise counts no less: the beam has a width
+// Planes are kept while no point moves by more than this share of what has it matched anew.
+constexpr double kKeptShare = 0.5;
 constexpr double kKernel = 3.0;  // of the Geman-McClure kernel, in robust standard deviations
 constexpr double kInlier = 3.0;  // the same, for what counts as an inlier
 constexpr double kMadToSigma = 1.4826;
@@ -30,11 +34,10 @@ constexpr int kMoreRough = 3;  // further steps on these points, while the steps
 constexpr std::size_t kCoarsePoints = 300, kScaleSample = 600, kGlimpse = 500;
 constexpr double kLeastWideningM = 0.01, kWideGate = 3;
 constexpr int kMinRows = 12;
-constexpr int kRestlessIterations =
-    6;  // from then on a point has to move further and further to be
-constexpr double kRestlessStartM = 1e-3;
-constexpr double kRestlessGrowth =
-    1.5;  // matched anew, so that matches that flip back and forth settle
+// From so many steps on a point has to move further and further to be matched anew, so that matches
+// that flip back and forth settle.
+constexpr int kRestlessIterations = 6;
+constexpr double kRestlessStartM = 1e-3, kRestlessGrowth = 1.5;
 
 /// Adds the time that passes until the end of its block.
 class AddTime {
@@ -82,10 +85,10 @@ double gateAt(int iteration, const AlignSchedule& schedule, double widening_m) {
   return std::max(schedule.gate_m, std::min(schedule.first_gate_m, kWideGate * widening_m));
 }
 
-bool allFull(const ObservedDirections& observed) {
-  return std::all_of(
-      observed.directions.begin(), observed.directions.end(),
-      [](const MatchDirection& direction) { return direction.cls == DirectionClass::kFull; });
+bool allFull(const std::array<MatchDirection, 6>& directions) {
+  return std::all_of(directions.begin(), directions.end(), [](const MatchDirection& direction) {
+    return direction.cls == DirectionClass::kFull;
+  });
 }
 
 }  // namespace
@@ -94,15 +97,18 @@ void Registration::setPoints(AveragedPoints averaged_body, const Vec3& sensor_po
   points_ = std::move(averaged_body);
   sensor_body_ = sensor_position_body;
   const std::size_t size = points_.points.size();
+  reach_m_ = 0;
   rays_.resize(size);
   range_variance_.resize(size);
   const double variance = settings_.range_noise_m * settings_.range_noise_m;
   for (std::size_t i = 0; i < size; ++i) {
     const Vec3 ray = toVec(points_.points[i]) - sensor_body_;
     const double range = ray.norm();
+    reach_m_ = std::max(reach_m_, range);
     rays_[i] = range > 0 ? Vec3(ray / range) : Vec3::Zero();
     range_variance_[i] = variance / points_.returns[i];
   }
+  reach_m_ += sensor_body_.norm();
 }
 
 // The plane of the nearest map point that the sensor can see. Planes seen edge-on are none.
@@ -178,7 +184,12 @@ void Registration::associate(const Pose& pose, double gate, int iteration, std::
                       i += stride) {
                    const Vec3 position = pose * toVec(points_.points[i]);
                    Correspondence& match = matches_[i];
-                   if ((position - match.searched_at).squaredNorm() > research_sq) {
+                   const bool first = match.alignment != alignments_;
+                   if (first) {
+                     match.alignment = alignments_;
+                     match.map_index = PriorMap::kNoPoint;
+                   }
+                   if (first || (position - match.searched_at).squaredNorm() > research_sq) {
                      match.searched_at = position;
                      moved[count++] = static_cast<std::uint32_t>(i);
                    } else if (match.planar) {
@@ -192,6 +203,18 @@ void Registration::associate(const Pose& pose, double gate, int iteration, std::
                  }
                });
   collectMatched(gate, stride);
+  fillLanes(pose);
+  association_ = {pose, stride, gate};
+}
+
+// Whether these points need no new planes: none has moved by so much of what it takes as leaves
+// room for what it had moved before.
+bool Registration::holdsAt(const Pose& pose, double gate, std::size_t stride) const {
+  if (association_.stride != stride || association_.gate != gate) return false;
+  const Pose& before = association_.pose;
+  const double turned = (pose.rotation - before.rotation).norm() / std::numbers::sqrt2;
+  return (pose.position - before.position).norm() + turned * reach_m_ <
+         kKeptShare * settings_.research_distance_m;
 }
 
 void Registration::collectMatched(double gate, std::size_t stride) {
@@ -204,43 +227,29 @@ void Registration::collectMatched(double gate, std::size_t stride) {
   }
 }
 
+void Registration::fillLanes(const Pose& pose) {
+  lanes_.reset(matched_.size(), pose);
+  const Mat3 R_body_local = pose.rotation.transpose();
+  forEachChunk(arena_, matched_.size(), kChunk,
+               [&](std::size_t, std::size_t begin, std::size_t end) {
+                 for (std::size_t k = begin; k < end; ++k) {
+                   const Correspondence& match = matches_[matched_[k]];
+                   lanes_.set(k, toVec(points_.points[matched_[k]]), R_body_local * match.normal,
+                              match.residual, match.sigma * match.sigma);
+                 }
+               });
+}
+
 // Standard deviation of the residuals in units of their expected one, robustly, at least 1: data
 // that fit better than the data sheet says are not believed more than it. Of many, from about
 // `sample`, evenly.
 double Registration::robustScale(std::size_t sample) {
-  const std::size_t step = std::max<std::size_t>(matched_.size() / sample, 1);
+  const std::size_t step = std::max<std::size_t>(lanes_.size() / sample, 1);
   scratch_.clear();
-  for (std::size_t k = 0; k < matched_.size(); k += step) {
-    const Correspondence& match = matches_[matched_[k]];
-    scratch_.push_back(std::abs(match.residual) / match.sigma);
+  for (std::size_t k = 0; k < lanes_.size(); k += step) {
+    scratch_.push_back(lanes_.residual(k) * lanes_.residual(k) / lanes_.variance(k));
   }
-  const auto middle = scratch_.begin() + static_cast<std::ptrdiff_t>(scratch_.size() / 2);
-  std::nth_element(scratch_.begin(), middle, scratch_.end());
-  return std::max(1.0, kMadToSigma * *middle);
-}
-
-// Least squares of independent residuals.
-NormalEquations Registration::plainEquations(const Pose& pose, double scale, double widening_m) {
-  const Mat3 R_body_local = pose.rotation.transpose();
-  std::vector<NormalEquations> parts(chunkCount(matched_.size(), kChunk));
-  forEachChunk(
-      arena_, matched_.size(), kChunk, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-        EquationSums sums;
-        for (std::size_t k = begin; k < end; ++k) {
-          const Correspondence& match = matches_[matched_[k]];
-          const double variance = scale * scale * match.sigma * match.sigma;
-          const double weight = robustWeight(match.residual, variance + widening_m * widening_m);
-          sums.add(R_body_local * match.normal, toVec(points_.points[matched_[k]]), match.residual,
-                   weight / variance);
-        }
-        parts[chunk] = sums.equations();
-      });
-  NormalEquations sum;
-  for (const NormalEquations& part : parts) {
-    sum.information += part.information;
-    sum.gradient += part.gradient;
-  }
-  return sum;
+  return std::max(1.0, kMadToSigma * std::sqrt(static_cast<double>(medianOf(scratch_))));
 }
 
 PlaneRow Registration::rowOf(std::size_t point, const Mat3& R_body_local, double scale) const {
@@ -258,23 +267,18 @@ PlaneRow Registration::rowOf(std::size_t point, const Mat3& R_body_local, double
   return row;
 }
 
+// With residuals and variances of that pose.
 void Registration::fillRows(const Pose& pose, double scale) {
   rows_.resize(matched_.size());
   const Mat3 R_body_local = pose.rotation.transpose();
   forEachChunk(arena_, matched_.size(), kChunk,
                [&](std::size_t, std::size_t begin, std::size_t end) {
                  for (std::size_t k = begin; k < end; ++k) {
-                   rows_[k] = rowOf(matched_[k], R_body_local, scale);
+                   const std::uint32_t i = matched_[k];
+                   measure(matches_[i], i, pose * toVec(points_.points[i]), pose.rotation);
+                   rows_[k] = rowOf(i, R_body_local, scale);
                  }
                });
-}
-
-// The residuals after a step that is small enough to be linear.
-void Registration::moveRows(const Vec6& step) {
-  for (std::size_t k = 0; k < rows_.size(); ++k) {
-    rows_[k].residual += rows_[k].jacobian().dot(step);
-    matches_[matched_[k]].residual = rows_[k].residual;
-  }
 }
 
 Mat6 Registration::spreadOfRows() {
@@ -300,13 +304,13 @@ std::vector<PlaneRow> Registration::unweightedRows(const Pose& pose, double scal
 // The directions as some of the points see them; as all do, where some leave a doubt. Without
 // robust weights: where the start is wrong along a direction, the few points that could tell are
 // far off their planes, and a direction that is held is never corrected.
-ObservedDirections Registration::glimpse(const Pose& pose, double scale) const {
+std::array<MatchDirection, 6> Registration::glimpse(const Pose& pose, double scale) const {
   const auto look = [&](std::size_t step) {
     const std::vector<PlaneRow> rows = unweightedRows(pose, scale, step);
-    return observeDirections(rows, Mat6::Zero(), settings_.normal_noise_rad);
+    return DirectionObserver(rows, settings_.normal_noise_rad).directions();
   };
   const std::size_t step = std::max<std::size_t>(matched_.size() / kGlimpse, 1);
-  const ObservedDirections observed = look(step);
+  const std::array<MatchDirection, 6> observed = look(step);
   return allFull(observed) || step == 1 ? observed : look(1);
 }
 
@@ -316,22 +320,21 @@ void Registration::summarize(double scale, Alignment& alignment) {
   if (matched_.empty()) return;
   double squares = 0;
   scratch_.clear();
-  for (const std::uint32_t point : matched_) {
-    const double residual = std::abs(matches_[point].residual);
-    scratch_.push_back(residual);
-    if (residual > kInlier * scale * matches_[point].sigma) continue;
+  for (std::size_t k = 0; k < lanes_.size(); ++k) {
+    const float residual_sq = lanes_.residual(k) * lanes_.residual(k);
+    scratch_.push_back(residual_sq);
+    if (static_cast<double>(residual_sq) >
+        kInlier * kInlier * scale * scale * static_cast<double>(lanes_.variance(k)))
+      continue;
     ++alignment.inliers;
-    squares += residual * residual;
+    squares += static_cast<double>(residual_sq);
   }
   if (alignment.inliers > 0) alignment.residual_rms_m = std::sqrt(squares / alignment.inliers);
-  const auto middle = scratch_.begin() + static_cast<std::ptrdiff_t>(scratch_.size() / 2);
-  std::nth_element(scratch_.begin(), middle, scratch_.end());
-  alignment.residual_median_m = *middle;
+  alignment.residual_median_m = std::sqrt(static_cast<double>(medianOf(scratch_)));
 }
 
 // Steps of robust least squares on part of the points at first, on all of them later; the errors
-// that points share are no part of it. The last step is so small that the equations
-// that gave it hold after it, too.
+// that points share are no part of it.
 Alignment Registration::align(const Pose& start, const AlignSchedule& schedule) {
   Alignment alignment;
   Pose& pose = alignment.T_local_body;
@@ -340,34 +343,39 @@ Alignment Registration::align(const Pose& start, const AlignSchedule& schedule) 
   bool rough = true, look = true, weak = false;
   double scale = 1, widening = 0;
   rows_.clear();
-  matches_.assign(points_.points.size(), {});
+  matches_.resize(points_.points.size());
+  ++alignments_;
+  association_ = {};
   const std::size_t coarse = std::max<std::size_t>(points_.points.size() / kCoarsePoints, 1);
   for (int i = 0; i < schedule.max_iterations && !alignment.converged; ++i) {
     {
       const AddTime time(alignment.timing.association_s);
-      associate(pose, gateAt(i, schedule, widening), i, rough ? coarse : 1);
+      const double gate = gateAt(i, schedule, widening);
+      // At first, far off, planes are found slowly, and poor ones.
+      const std::size_t stride = !rough ? 1 : i == 0 ? 2 * coarse : coarse;
+      if (!rough && holdsAt(pose, gate, stride)) {
+        lanes_.moveTo(pose);
+      } else {
+        associate(pose, gate, i, stride);
+      }
     }
     alignment.iterations = i + 1;
     if (matched_.size() < kMinRows) break;
     const AddTime time(alignment.timing.solve_s);
     scale = robustScale(kScaleSample);
     if (look && settings_.degeneracy_handling) {
-      const ObservedDirections observed = glimpse(pose, scale);
+      const std::array<MatchDirection, 6> observed = glimpse(pose, scale);
       if (!weak && !allFull(observed)) widening = schedule.start_sigma_m;
       weak = weak || !allFull(observed);
       anchors.hold(observed);
     }
-    NormalEquations system = plainEquations(pose, scale, widening);
+    NormalEquations system = lanes_.equations(kKernel, scale, widening, arena_);
     anchors.addTo(system, differenceInBody(pose, start));
     Vec6 step;
     if (!solveStep(system, step)) break;
     const double position = step.head<3>().norm(), rotation = step.tail<3>().norm();
     alignment.converged =
         !rough && widening == 0 && position < kConvergedM && rotation < kConvergedRad;
-    if (alignment.converged) {
-      fillRows(pose, scale);
-      moveRows(step);
-    }
     pose = movedInBody(pose, step);
     if (i + 1 >= schedule.first_iterations) widening = narrowed(widening);
     // The directions are looked at once with few points and the wide gate, once with all.
@@ -378,10 +386,13 @@ Alignment Registration::align(const Pose& start, const AlignSchedule& schedule) 
                                                 i + 1 < schedule.first_iterations + kMoreRough)));
     look = was_rough && !rough;
   }
-  if (!alignment.converged) {
+  // The last step is so small that the planes hold after it, too.
+  if (alignment.converged) {
+    lanes_.moveTo(pose);
+  } else {
     associate(pose, schedule.gate_m, alignment.iterations, 1);
-    fillRows(pose, scale);
   }
+  fillRows(pose, scale);
   summarize(scale, alignment);
   return alignment;
 }

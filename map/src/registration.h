@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "matched_lanes.h"
 #include "paloc/core/map_matcher.h"
 #include "paloc/core/pose.h"
 #include "paloc/map/degeneracy.h"
@@ -68,9 +69,10 @@ class Registration {
 
  private:
   struct Correspondence {
-    Vec3 searched_at = Vec3::Constant(1e30);  // far from any first pose
-    Vec3 normal = Vec3::Zero();               // of the plane, local frame
-    double height = 0;                        // the plane is normal . x = height
+    std::uint32_t alignment = 0;  // in which it was sought
+    Vec3 searched_at = Vec3::Zero();
+    Vec3 normal = Vec3::Zero();  // of the plane, local frame
+    double height = 0;           // the plane is normal . x = height
     Vec3 map_point = Vec3::Zero();
     double distance = 0;      // to the map point, when searched
     double fit_variance = 0;  // of the plane's height at its centroid
@@ -88,13 +90,13 @@ class Registration {
   void measure(Correspondence& match, std::size_t point, const Vec3& position,
                const Mat3& rotation) const;
   void collectMatched(double gate, std::size_t stride);
+  void fillLanes(const Pose& pose);
+  bool holdsAt(const Pose& pose, double gate, std::size_t stride) const;
   double robustScale(std::size_t sample);
-  NormalEquations plainEquations(const Pose& pose, double scale, double widening_m);
   void fillRows(const Pose& pose, double scale);
-  void moveRows(const Vec6& step);
   PlaneRow rowOf(std::size_t point, const Mat3& R_body_local, double scale) const;
   std::vector<PlaneRow> unweightedRows(const Pose& pose, double scale, std::size_t step) const;
-  ObservedDirections glimpse(const Pose& pose, double scale) const;
+  std::array<MatchDirection, 6> glimpse(const Pose& pose, double scale) const;
   void summarize(double scale, Alignment& alignment);
 
   const PriorMap& map_;
@@ -106,8 +108,17 @@ class Registration {
   Vec3 sensor_body_ = Vec3::Zero();
   std::vector<Correspondence> matches_;
   std::vector<std::uint32_t> matched_;  // points with a plane, ascending
-  std::vector<PlaneRow> rows_;          // one per matched point
-  std::vector<double> scratch_;
+  MatchedLanes lanes_;                  // of these, at the pose of the last step
+  // Where, for which of the points and within what distance planes were sought last.
+  struct {
+    Pose pose;
+    std::size_t stride = 0;
+    double gate = 0;
+  } association_;
+  std::uint32_t alignments_ = 0;  // so far
+  double reach_m_ = 0;            // of the farthest point from the body
+  std::vector<PlaneRow> rows_;    // one per matched point
+  std::vector<float> scratch_;
   int near_ = 0;
 };
 
