@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace paloc {
 namespace {
@@ -16,6 +17,7 @@ constexpr double kMinGapToSpread = 2.0;  // two faces: the gap against the sprea
 constexpr double kSureShare = 0.7, kFaceClean = 2.25;
 constexpr std::size_t kTriedPoints = 6;
 constexpr float kTriedSine = 0.3F;
+constexpr std::size_t kFew = 64;  // numbers, up to which to count is quicker than to sort
 
 Float4 heightOver(const Vec3f& normal, const Float4& x, const Float4& y, const Float4& z) {
   return x * normal.x() + y * normal.y() + z * normal.z();
@@ -29,6 +31,24 @@ int countNear(const NearPoints& points, const Vec3f& normal, float within_m) {
     count -= height * height < within_sq;  // a lane that holds is -1
   });
   return count[0] + count[1] + count[2] + count[3];
+}
+
+// Sorts a few numbers, of which there is room for four more: each goes to the place that the
+// smaller ones leave to it, counted four at once and without a branch that cannot be foreseen.
+void sortFew(std::vector<float>& values, std::size_t count, std::vector<float>& sorted) {
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  std::fill_n(values.begin() + static_cast<std::ptrdiff_t>(count), 4, kNone);
+  sorted.assign(count, kNone);
+  for (std::size_t i = 0; i < count; ++i) {
+    Mask4 smaller{};
+    for (std::size_t k = 0; k < count; k += 4) smaller -= load4(values.data() + k) < values[i];
+    const int place = smaller[0] + smaller[1] + smaller[2] + smaller[3];
+    sorted[static_cast<std::size_t>(place)] = values[i];
+  }
+  // Of equal ones all went to one place.
+  for (std::size_t i = 1; i < count; ++i) {
+    if (std::isnan(sorted[i])) sorted[i] = sorted[i - 1];
+  }
 }
 
 // Moments of the points whose height over the plane through the origin lies in [low, high].
@@ -95,8 +115,13 @@ PlaneFit::Band PlaneFit::ownFace(const NearPoints& points, const PlaneMoments& m
     store4(heights_.data() + at, heightOver(normal, x, y, z));
     at += 4;
   });
-  heights_.resize(points.size());  // without the lanes that are none
-  std::sort(heights_.begin(), heights_.end());
+  if (points.size() <= kFew) {
+    sortFew(heights_, points.size(), sorted_);
+    heights_.swap(sorted_);
+  } else {
+    heights_.resize(points.size());  // without the lanes that are none
+    std::sort(heights_.begin(), heights_.end());
+  }
   std::size_t begin = 0, end = heights_.size(), cut = 0;
   float gap = 0;
   for (std::size_t i = 1; i < heights_.size(); ++i) {

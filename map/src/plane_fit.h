@@ -39,7 +39,7 @@ class PlaneFit {
   Band ownFace(const NearPoints& points, const PlaneMoments& m);
 
   PlaneFitLimits limits_;
-  std::vector<float> heights_;
+  std::vector<float> heights_, sorted_;
 };
 
 }  // namespace paloc

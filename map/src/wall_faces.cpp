@@ -64,7 +64,7 @@ class OtherFace {
           const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
           const std::uint32_t i = index_.indexOf(block, at + lane);
           if (!planes_[i].planar()) continue;
-          if (std::abs(planes_[i].normal().dot(normal_)) <= kParallelCosine) continue;
+          if (std::abs(planes_[i].along(normal_)) <= kParallelCosine) continue;
           candidates_.push_back({x[lane], y[lane], z[lane]});
         }
       }
@@ -157,9 +157,12 @@ void turnFacesToTheirViewers(const PointIndex& index, PlaneStore& planes, tbb::t
                    decide(index, planes, group * kGroup, other, turns.data() + group * kGroup);
                  }
                });
-  for (std::size_t i = 0; i < planes.size(); ++i) {
-    if (turns[i] != Turn::kNothing) planes[i].orient(turns[i] == Turn::kTurn);
-  }
+  forEachChunk(arena, planes.size(), kGroup * kChunk,
+               [&](std::size_t, std::size_t begin, std::size_t end) {
+                 for (std::size_t i = begin; i < end; ++i) {
+                   if (turns[i] != Turn::kNothing) planes[i].orient(turns[i] == Turn::kTurn);
+                 }
+               });
 }
 
 }  // namespace paloc
