@@ -51,14 +51,7 @@ class BlockFitter {
   void fitTogether(const Vec3f& centre, float half_width_m);
   float gatherAbout(const Vec3f& centre, const Vec3f& middle, float half_width_m);
   MapPlane planeAt(std::size_t point, float radius_sq);
-  /// A clean face: the plane about a point.
-  struct Face {
-    Vec3f point, normal;  // relative to the centre
-    float offset_m;
-  };
-  void keepFaces(const Vec3f& centre);
   bool fitOnKnownFace(std::size_t point, float radius_sq);
-  bool fitOnFace(const Face& face, std::size_t point, float radius_sq);
   void share(std::size_t from, float radius_sq, std::array<bool, PointBlock::kPoints>& fitted);
 
   const PointIndex& index_;
@@ -67,9 +60,8 @@ class BlockFitter {
   PlaneFitLimits limits_;
   PlaneFit fit_;
   float clean_m_, max_radius_m_;
-  std::vector<Face> faces_, before_;  // found in this block and in the one before
-  Vec3f centre_ = Vec3f::Zero();
-  float last_radius_m_ = 0;  // 0: none yet
+  std::vector<std::size_t> faces_;  // points of the block whose plane is a clean face
+  float last_radius_m_ = 0;         // 0: none yet
   Points points_{};
   std::array<MapPlane, PointBlock::kPoints> planes_{};
   std::size_t count_ = 0;
@@ -94,34 +86,26 @@ float BlockFitter::gatherAbout(const Vec3f& centre, const Vec3f& middle, float h
   }
 }
 
-// What was found in the block before, relative to the centre of the next.
-void BlockFitter::keepFaces(const Vec3f& centre) {
-  before_.swap(faces_);
-  faces_.clear();
-  for (Face& face : before_) face.point += centre_ - centre;
-  centre_ = centre;
-}
-
 // Where the point lies on a face that was found already, but out of its reach: the face's points
 // about the point itself, if these are most of all.
 bool BlockFitter::fitOnKnownFace(std::size_t point, float radius_sq) {
-  const auto fits = [&](const Face& face) { return fitOnFace(face, point, radius_sq); };
-  return std::any_of(faces_.begin(), faces_.end(), fits) ||
-         std::any_of(before_.begin(), before_.end(), fits);
-}
-
-bool BlockFitter::fitOnFace(const Face& face, std::size_t point, float radius_sq) {
-  const float height = face.offset_m - face.normal.dot(points_[point] - face.point);
-  if (std::abs(height) > kKnownOffset * clean_m_) return false;
-  const Neighbourhood::Face about = neighbourhood_.faceWithin(
-      points_[point], radius_sq, face.normal, height, PlaneFit::kFaceWithin * clean_m_);
-  if (static_cast<float>(about.sums.count) < PlaneFit::kFaceShare * static_cast<float>(about.count))
-    return false;
-  const PlaneMoments moments(about.sums);
-  const MapPlane plane = planeOf(moments, limits_);
-  if (!plane.planar() || plane.thickness_m > clean_m_) return false;
-  planes_[point] = plane;
-  return true;
+  for (const std::size_t face : faces_) {
+    const MapPlane& known = planes_[face];
+    const Vec3f normal(known.nx, known.ny, known.nz);
+    const float height = known.offset_m - normal.dot(points_[point] - points_[face]);
+    if (std::abs(height) > kKnownOffset * clean_m_) continue;
+    const Neighbourhood::Face about = neighbourhood_.faceWithin(
+        points_[point], radius_sq, normal, height, PlaneFit::kFaceWithin * clean_m_);
+    if (static_cast<float>(about.sums.count) <
+        PlaneFit::kFaceShare * static_cast<float>(about.count))
+      continue;
+    const PlaneMoments moments(about.sums);
+    const MapPlane plane = planeOf(moments, limits_);
+    if (!plane.planar() || plane.thickness_m > clean_m_) continue;
+    planes_[point] = plane;
+    return true;
+  }
+  return false;
 }
 
 MapPlane BlockFitter::planeAt(std::size_t point, float radius_sq) {
@@ -142,15 +126,14 @@ void BlockFitter::fitTogether(const Vec3f& centre, float half_width_m) {
   const float radius = gatherAbout(centre, points_[middle], half_width_m);
   const float radius_sq = radius * radius;
   std::array<bool, PointBlock::kPoints> fitted{};
-  keepFaces(centre);
+  faces_.clear();
   for (std::size_t k = 0; k < count_; ++k) {
     const std::size_t at = (middle + k) % count_;  // the middle one first
     if (fitted[at]) continue;
     if (!fitOnKnownFace(at, radius_sq)) planes_[at] = planeAt(at, radius_sq);
     fitted[at] = true;
-    const MapPlane& plane = planes_[at];
-    if (!plane.planar() || plane.thickness_m > clean_m_) continue;
-    faces_.push_back({points_[at], {plane.nx, plane.ny, plane.nz}, plane.offset_m});
+    if (!planes_[at].planar() || planes_[at].thickness_m > clean_m_) continue;
+    faces_.push_back(at);
     share(at, radius_sq, fitted);
   }
 }

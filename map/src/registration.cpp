@@ -351,8 +351,7 @@ Alignment Registration::align(const Pose& start, const AlignSchedule& schedule) 
     {
       const AddTime time(alignment.timing.association_s);
       const double gate = gateAt(i, schedule, widening);
-      // At first, far off, planes are found slowly, and poor ones.
-      const std::size_t stride = !rough ? 1 : i == 0 ? 2 * coarse : coarse;
+      const std::size_t stride = rough ? coarse : 1;
       if (!rough && holdsAt(pose, gate, stride)) {
         lanes_.moveTo(pose);
       } else {
