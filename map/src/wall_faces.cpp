@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kGroup = 64, kChunk = 64;  // points; groups
 constexpr std::size_t kLeastPoints = 5;          // of a face
 constexpr float kThinnestM = 0.03F, kThickestM = 0.3F;
-constexpr float kParallelCosine = 0.95F;
+constexpr float kParallelCosine = 0.95F, kSlackCosine = 1e-3F;
 constexpr float kSameFaceM = 0.02F;
 constexpr int kAboutNeeded = 3;  // of four places about
 
@@ -64,11 +64,19 @@ class OtherFace {
           const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
           const std::uint32_t i = index_.indexOf(block, at + lane);
           if (!planes_[i].planar()) continue;
-          if (std::abs(planes_[i].along(normal_)) <= kParallelCosine) continue;
+          if (!isParallel(planes_[i])) continue;
           candidates_.push_back({x[lane], y[lane], z[lane]});
         }
       }
     });
+  }
+
+  // Only where it is close is the normal brought to unit length.
+  bool isParallel(const PackedPlane& plane) const {
+    const float nearly = std::abs(plane.along(normal_));
+    if (nearly < kParallelCosine - kSlackCosine) return false;
+    return nearly > kParallelCosine + kSlackCosine ||
+           std::abs(plane.normal().dot(normal_)) > kParallelCosine;
   }
 
   // Whether a parallel plane lies on that side of the place (relative to the point).
