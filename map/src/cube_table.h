@@ -103,7 +103,7 @@ class CubeTable {
 };
 
 inline CubeTable::Surroundings CubeTable::about(const Point3f& p) const {
-  Surroundings about;
+  Surroundings about{};
   const Cube home = cubeOf(p);
   about.home = {keyOf(home), 0, nullptr};
   const std::array<float, 3> at{p.x, p.y, p.z};

@@ -264,9 +264,11 @@ template <typename Accept>
 void PointIndex::searchTogether(std::span<Sought> sought, const Accept& accept) const {
   constexpr float kRoundedUp = 1 + 1e-5F;
   const auto edge_sq = static_cast<float>(cubes_.edge() * cubes_.edge());
-  std::array<CubeTable::Surroundings, kTogether> about;
+  std::array<CubeTable::Surroundings, kTogether> about{};
+  // Ten kilobytes, of which little is written, and that before it is read.
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
   std::array<CubeTable::Neighbours, kTogether> neighbours;
-  std::array<std::size_t, kTogether> counts;
+  std::array<std::size_t, kTogether> counts{};
   for (std::size_t i = 0; i < sought.size(); ++i) {
     about[i] = cubes_.about(sought[i].query);
     cubes_.prefetch(about[i].home);

@@ -227,7 +227,7 @@ void PriorMap::Data::nearestSeen(const Point3f& viewer, float max_distance_sq,
     if (answers[i].found()) paloc::prefetch(&map.planes[answers[i].index]);
   }
   const SeenPoints seen(index, map.planes, viewer);
-  std::array<std::size_t, PointIndex::kTogether> unseen;
+  std::array<std::size_t, PointIndex::kTogether> unseen{};
   std::size_t count = 0;
   for (std::size_t i = 0; i < queries.size(); ++i) {
     if (!answers[i].found() || seen(answers[i].index)) continue;

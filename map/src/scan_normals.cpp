@@ -70,7 +70,8 @@ std::size_t ScanNormals::countNear(const Point3f& point, double radius_m) const 
   visitNear(point, radius_m, [&](const Mask4& within, const Float4&, const Float4&, const Float4&) {
     count -= within;  // a lane that holds is -1
   });
-  return static_cast<std::size_t>(count[0] + count[1] + count[2] + count[3]);
+  const int sum = count[0] + count[1] + count[2] + count[3];
+  return static_cast<std::size_t>(sum);
 }
 
 // On surfaces the number of neighbours grows with the square of the radius.
