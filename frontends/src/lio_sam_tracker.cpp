@@ -170,7 +170,10 @@ void LioSamTracker::extractFeatures(const LidarFrame& frame, bool has_times) {
   features_.edges = everyNth(map_features_.edges, static_cast<std::size_t>(s.registration_edges));
 }
 
+// All of the first scans are: one alone fills few voxels, and what it leaves open of a narrow place
+// (the height in a stairwell) would be carried into all that the map is made of later.
 bool LioSamTracker::isKeyFrame(double matched_share) const {
+  if (first_.scans_since <= kSettling) return true;
   const LioSamSettings& s = settings_.lio_sam;
   const Pose motion = last_key_frame_.inverse() * smoother_.state().T_odom_body;
   return motion.position.norm() > s.key_frame_distance_m ||

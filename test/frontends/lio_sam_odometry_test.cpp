@@ -46,6 +46,19 @@ TEST(LioSamOdometry, ItsMapStopsGrowing) {
   EXPECT_LT(static_cast<double>(late), 1.5 * static_cast<double>(early));
 }
 
+// One scan alone tells too little of a narrow place.
+TEST(LioSamOdometry, TheFirstScansAllGoIntoItsMap) {
+  FrontendSettings settings;
+  settings.lio_sam.key_frame_distance_m = 100;
+  settings.lio_sam.key_frame_turn_rad = 10;
+  settings.lio_sam.key_frame_matched = 0;
+  const auto bytes = mapBytesOf(recordingOf(test::sway(), 30), settings);
+  const auto first = std::find_if(bytes.begin(), bytes.end(), [](std::size_t b) { return b > 0; });
+  ASSERT_NE(first, bytes.end());
+  EXPECT_GT(bytes.back(), 3 * *first);
+  EXPECT_EQ(bytes.back(), bytes[bytes.size() / 2]) << "and no others";
+}
+
 /// The room's walls, and the scans' edges in its corners; planes alone do as well here.
 TEST(LioSamOdometry, EdgesCanBeLeftOut) {
   FrontendSettings settings;
