@@ -6,6 +6,7 @@
 
 #include "iterated_update.h"
 #include "motion_covariance.h"
+#include "points_on_planes.h"
 
 namespace paloc {
 namespace {
@@ -99,12 +100,13 @@ const std::vector<PlacedPoint>& IcpFilter::place(const std::vector<MeasuredPoint
 std::size_t IcpFilter::update(const std::vector<MeasuredPoint>& points, const Vec3& sensor_body,
                               const LocalVoxelMap& map, bool rigid) {
   const double ageing = rigid ? 0 : 1;
-  ChordUpdate update({limits_.max_iterations, limits_.max_gate_m}, matches_, map, ageing);
+  ChordUpdate update({limits_.max_iterations, limits_.max_gate_m});
   const auto place = [&](const ChordMotion& x) -> const std::vector<PlacedPoint>& {
     placePoints(points, sensor_body, x, ageing);
     return placed_;
   };
-  if (!update.run(state_, covariance_, rmsRange(points), place, toMeasured)) {
+  auto matches = pointsOnPlanes<18>(matches_, map, ageing, place);
+  if (!update.run(state_, covariance_, rmsRange(points), matches, toMeasured)) {
     return matches_.size();
   }
   state_ = update.state();

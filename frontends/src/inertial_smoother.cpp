@@ -2,10 +2,10 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <cmath>
 #include <utility>
 
+#include "lio_update.h"
 #include "motion_covariance.h"
 
 namespace paloc {
@@ -21,7 +21,6 @@ constexpr double kGravityWalk = 1e-6;  // 1/sqrt(Hz)
 // than there are unknowns.
 constexpr double kEdgePosition = 1e-6, kEdgeRotation = 1e-7, kEdgeVelocity = 1e-5;  // m rad m/s
 constexpr double kLostSigma_m = 100;
-constexpr double kMostRotation = 0.01;  // rad2, in a unit direction that is one of position
 
 SmootherSettings settingsOf(double lag_s) {
   SmootherSettings settings;
@@ -88,27 +87,22 @@ Mat9 blurred(const Mat9& information, const Vec9& blur) {
   return 0.5 * (result + result.transpose());
 }
 
-// What of the errors of position and velocity goes with those along open directions, as a matrix
-// (9 x 9); P is the covariance. A scan is to tell the rest of them only. An open direction comes
-// out a little otherwise at each scan. With an open position of large variance, what two scans know
-// across two such directions would tie it down, and the smallest residual across it move it far.
-// (After S. F. Schmidt's consider states; but what a scan tells of the rotation it tells in full,
-// for the tilt is what moved the position.)
-Mat9 openPart(const Mat9& P, const NullDirections<9>& open) {
-  using Columns = Eigen::Matrix<double, 9, Eigen::Dynamic, 0, 9, 9>;
-  Columns E = Columns::Zero(9, 0);
-  for (int i = 0; i < open.cols(); ++i) {
-    if (open.col(i).segment<3>(lio::kRotation).squaredNorm() > kMostRotation) continue;
-    E.conservativeResize(Eigen::NoChange, E.cols() + 1);
-    E.col(E.cols() - 1) = open.col(i);
-  }
-  if (E.cols() == 0) return Mat9::Zero();
-  Mat9 moving = P;
-  moving.middleRows<3>(lio::kRotation).setZero();
-  moving.middleCols<3>(lio::kRotation).setZero();
-  const Columns PE = moving * E;
-  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> along(E.transpose() * PE);
-  return PE * along.pseudoInverse() * E.transpose();
+using ToLio = Eigen::Matrix<double, lio::kDim, tangent::kDim>;
+
+// Derivative of the error of a LioState by that of a node: the length of gravity is left out.
+ToLio errorToLio(const State& x) {
+  static_assert(int{lio::kGravity} == int{tangent::kGravity});
+  ToLio derivative = ToLio::Identity();
+  const Vec3 g = x.gravity_map.normalized();
+  derivative.block<2, 3>(lio::kGravity, tangent::kGravity) =
+      tangentBasis(g).transpose() * so3::hat(g);
+  return derivative;
+}
+
+LioMatrix covarianceOfLio(const State& x, const StateMatrix& covariance) {
+  const ToLio to_lio = errorToLio(x);
+  const LioMatrix P = to_lio * covariance * to_lio.transpose();
+  return 0.5 * (P + P.transpose());
 }
 
 }  // namespace
@@ -117,14 +111,19 @@ InertialSmoother::InertialSmoother(double lag_s, double gravity_mps2)
     : gravity_mps2_(gravity_mps2), settings_(settingsOf(lag_s)), smoother_(settings_) {}
 
 void InertialSmoother::begin(TimeNs t_ns, const LioState& state, const InertialStart& start) {
+  const State first = toNode(state);
+  beginWindow(t_ns, first, firstCovariance(first, start, gravity_mps2_));
+}
+
+void InertialSmoother::beginWindow(TimeNs t_ns, const State& state, const StateMatrix& covariance) {
   ChainNode node;
-  node.t_ns = t_ns;
-  node.state = toNode(state);
-  const StateMatrix covariance = firstCovariance(node.state, start, gravity_mps2_);
-  node.node_factors.push_back(PriorFactor(
-      node.state, covariance.ldlt().solve(StateMatrix::Identity()), StateVector::Zero()));
+  node.t_ns = t_ns_ = t_ns;
+  node.state = state;
+  node.node_factors.push_back(
+      PriorFactor(state, covariance.ldlt().solve(StateMatrix::Identity()), StateVector::Zero()));
   smoother_ = FixedLagSmoother(settings_);
   smoother_.add(std::move(node));
+  open_ = false;
   takeNewest();
 }
 
@@ -157,9 +156,34 @@ void InertialSmoother::predict(const Preintegration& imu, const ImuNoise& noise)
   cross_ = F * covariance_;
   const StateMatrix predicted = cross_ * F.transpose() + process;
   covariance_predicted_ = 0.5 * (predicted + predicted.transpose());
+  holdLengthOfGravity();
   predicted_ = toLio(next_.state, gravity_mps2_);
 }
 
+// A Kalman update of the prediction with what lengthOfGravity() says, so that it is known to the
+// registration too.
+void InertialSmoother::holdLengthOfGravity() {
+  const Vec3& g = next_.state.gravity_map;
+  StateVector along = StateVector::Zero();
+  along.segment<3>(tangent::kGravity) = g.normalized();
+  StateMatrix& P = covariance_predicted_;
+  const double variance = along.dot(P * along) + kGravityLength * kGravityLength;
+  const StateVector gain = P * along / variance;
+  next_.state = boxplus(next_.state, gain * (1 - g.norm()));
+  cross_ -= (gain * (along.transpose() * cross_)).eval();
+  const StateMatrix updated = P - variance * gain * gain.transpose();
+  P = 0.5 * (updated + updated.transpose());
+}
+
+LioMatrix InertialSmoother::predictedCovariance() const {
+  return covarianceOfLio(next_.state, covariance_predicted_);
+}
+
+LioMatrix InertialSmoother::covariance() const { return covarianceOfLio(node_, covariance_); }
+
+// The scan tells of the error less its open part: a direction that is open comes out a little
+// otherwise at each scan, and with an open position of large variance, what two scans know across
+// two such directions would tie it down, and the smallest residual across it move it far.
 void InertialSmoother::add(TimeNs t_ns, const FeatureMeasurement& scan, const Vec9& blur,
                            bool compare) {
   const Mat9 known = blurred(scan.information, blur);
@@ -167,24 +191,34 @@ void InertialSmoother::add(TimeNs t_ns, const FeatureMeasurement& scan, const Ve
   const Vec9 asked = (Mat9::Identity() + scan.information * blur.asDiagonal())
                          .partialPivLu()
                          .solve(-scan.gradient);
-  StateMatrix information = StateMatrix::Zero();
-  StateVector vector = StateVector::Zero();
-  const Mat9 kept = Mat9::Identity() - openPart(predictedCovariance(), scan.open);
-  information.topLeftCorner<9, 9>() = kept.transpose() * known * kept;
-  vector.head<9>() = kept.transpose() * asked;
-  next_.t_ns = t_ns;
-  next_.node_factors.push_back(PriorFactor(toNode(scan.at), information, vector));
+  LioUpdate::Directions open = LioUpdate::Directions::Zero(lio::kDim, scan.open.cols());
+  open.topRows<9>() = scan.open;
+  const LioMatrix open_part = openPart<lio::kDim>(predictedCovariance(), open);
+  const Eigen::Matrix<double, 9, tangent::kDim> told =
+      (LioMatrix::Identity() - open_part).topRows<9>() * errorToLio(next_.state);
+  const StateMatrix information = told.transpose() * known * told;
+  const StateVector vector = told.transpose() * asked;
+  if (open_) beginWindow(t_ns_, node_, covariance_);
+  next_.t_ns = t_ns_ = t_ns;
+  next_.node_factors.push_back(PriorFactor(toNode(scan.found), information, vector));
   next_.node_factors.push_back(lengthOfGravity(gravity_mps2_));
   const Pose before = state_.T_odom_body;
   const Mat6 covariance_before = covariance_.topLeftCorner<6, 6>();
   const StateMatrix& P = covariance_predicted_;
   const Eigen::PartialPivLU<StateMatrix> system(StateMatrix::Identity() + P * information);
   const StateVector step =
-      system.solve(P * (vector + information * boxminus(toNode(scan.at), next_.state)));
+      system.solve(P * (vector + information * boxminus(toNode(scan.found), next_.state)));
   next_.state = boxplus(next_.state, step);
+  const State by_update = next_.state;
   smoother_.add(std::move(next_));
   takeNewest();
   const StateMatrix cross = system.solve(cross_), updated = system.solve(P);
+  open_ = scan.open.cols() > 0;
+  if (open_) {
+    node_ = by_update;
+    state_ = toLio(node_, gravity_mps2_);
+    covariance_ = 0.5 * (updated + updated.transpose());
+  }
   if (compare) {
     // Not the smoother's own: along open directions these are differences of large numbers.
     agreement_.compare(step.head<6>(), system.solve(P * information * P).topLeftCorner<6, 6>());

@@ -1,21 +1,13 @@
 #include "paloc/frontends/lio_filter.h"
 
-#include "iterated_update.h"
+#include "lio_update.h"
 #include "motion_covariance.h"
+#include "points_on_planes.h"
 
 namespace paloc {
 namespace {
 
 constexpr double kLostSigma_m = 100;
-
-using LioUpdate = IteratedUpdate<LioState, lio::kDim, 9>;
-
-// The scan's rotation is on the left, in the odom frame; the state's on the right.
-LioUpdate::ToMeasured toMeasured(const LioState& x) {
-  LioUpdate::ToMeasured derivative = LioUpdate::ToMeasured::Identity();
-  derivative.block<3, 3>(lio::kRotation, lio::kRotation) = x.T_odom_body.rotation;
-  return derivative;
-}
 
 }  // namespace
 
@@ -50,12 +42,15 @@ bool LioFilter::isLost() const {
 std::size_t LioFilter::update(const std::vector<MeasuredPoint>& points, const FreeFallScan& scan,
                               const Vec3& sensor_body, const LocalVoxelMap& map, bool rigid) {
   const double ageing = rigid ? 0 : 1;
-  LioUpdate update({limits_.max_iterations, limits_.max_gate_m}, matches_, map, ageing);
+  LioUpdate update({limits_.max_iterations, limits_.max_gate_m});
   const auto place = [&](const LioState& x) -> const std::vector<PlacedPoint>& {
     placePoints(points, scan, sensor_body, x, ageing, placed_);
     return placed_;
   };
-  if (!update.run(state_, covariance_, rmsRange(points), place, toMeasured)) return matches_.size();
+  auto matches = pointsOnPlanes<9>(matches_, map, ageing, place);
+  if (!update.run(state_, covariance_, rmsRange(points), matches, lioToMeasured)) {
+    return matches_.size();
+  }
   if (!rigid) {
     agreement_.compare(boxminus(update.state(), state_).head<6>(),
                        (covariance_ - update.covariance()).topLeftCorner<6, 6>());

@@ -10,6 +10,7 @@ namespace {
 constexpr double kLeastMatched = 0.1;  // of the features: fewer, and the scan is not used
 constexpr int kSettling = 8;           // scans until the first key frame stays where it is
 constexpr int kStartRounds = 3;
+constexpr int kMostOpen = 8;  // key frames at a place because they leave directions open
 
 RingFeatureLimits ringLimits(const LioSamSettings& s) {
   return {s.feature_window_m, s.edge_bend, s.plane_bend, s.range_noise_m, s.edges_per_sector};
@@ -71,7 +72,7 @@ LioSamTracker::Outcome LioSamTracker::add(const LidarFrame& frame, const ImuBuff
   keepWorst(smoother_.imuFactor());
   StageScope stage(timer_, "map update");
   settleFirst();
-  if (used && inertia_.measured() && isKeyFrame(measured.matchedShare())) addKeyFrame();
+  if (used && inertia_.measured() && isKeyFrame(measured)) addKeyFrame();
   return used ? Outcome::kTracked : Outcome::kCoasted;
 }
 
@@ -96,6 +97,7 @@ LioSamTracker::Outcome LioSamTracker::begin(const LidarFrame& frame, const ImuBu
   smoother_.begin(scan_.end_ns, state, start_);
   map_.clear();
   first_ = {scan_, state, map_features_, !first->at_rest, 0};
+  open_here_ = 0;
   addKeyFrame(true);
   return Outcome::kBegun;
 }
@@ -170,12 +172,19 @@ void LioSamTracker::extractFeatures(const LidarFrame& frame, bool has_times) {
   features_.edges = everyNth(map_features_.edges, static_cast<std::size_t>(s.registration_edges));
 }
 
-bool LioSamTracker::isKeyFrame(double matched_share) const {
+// So are, at each place, some of the scans that leave directions open: the map may only have too
+// few points yet to tell, as at the start in a stairwell, of whose height one scan alone says too
+// little. What the IMU then makes of it would go into all of the map that comes later.
+bool LioSamTracker::isKeyFrame(const FeatureMeasurement& measured) {
   const LioSamSettings& s = settings_.lio_sam;
   const Pose motion = last_key_frame_.inverse() * smoother_.state().T_odom_body;
-  return motion.position.norm() > s.key_frame_distance_m ||
-         so3::log(motion.rotation).norm() > s.key_frame_turn_rad ||
-         matched_share < s.key_frame_matched;
+  if (motion.position.norm() > s.key_frame_distance_m ||
+      so3::log(motion.rotation).norm() > s.key_frame_turn_rad ||
+      measured.matchedShare() < s.key_frame_matched) {
+    open_here_ = 0;
+    return true;
+  }
+  return measured.open.cols() > 0 && open_here_++ < kMostOpen;
 }
 
 // `rigid` as of FeatureRegistration.

@@ -42,7 +42,7 @@ class LioSamTracker : public InertialTracker {
   void placeFirst(const LioState& x);
   FeatureMeasurement align(bool rigid = false);
   void extractFeatures(const LidarFrame& frame, bool has_times);
-  bool isKeyFrame(double matched_share) const;
+  bool isKeyFrame(const FeatureMeasurement& measured);
   void addKeyFrame(bool rigid = false);
 
   RingFeatures rings_;
@@ -57,6 +57,7 @@ class LioSamTracker : public InertialTracker {
   ScanFeatures map_features_, features_;  // of the scan at hand: for the map, to register
   std::vector<PlacedPoint> placed_planes_, placed_edges_;
   Pose last_key_frame_;
+  int open_here_ = 0;  // key frames since the body was elsewhere, for what they leave open
   InertialStart start_;
   struct {
     KeptScan scan;

@@ -49,7 +49,7 @@ struct World {
                             Vec3::Zero());
     FeatureRegistration registration({});
     return registration.align(features, scan, Vec3::Zero(), map, predicted,
-                              sigma * sigma * Mat9::Identity());
+                              sigma * sigma * LioMatrix::Identity());
   }
 };
 

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "paloc/frontends/lio_filter.h"
 #include "smooth_motion.h"
+#include "walls.h"
 
 namespace paloc {
 namespace {
@@ -23,10 +25,19 @@ LioState stateOf(const test::SmoothMotion& motion, double t_s) {
   return x;
 }
 
+/// The walls' map, as that of key frames.
+KeyFrameMap keyFramesOf(const test::Walls& walls) {
+  KeyFrameMap map({});
+  std::vector<PlacedPoint> placed;
+  for (const Vec3& p : walls.map_points) placed.push_back({p, p, p, 0});
+  map.add(placed, {});
+  return map;
+}
+
 /// A scan that fixes the pose to `sigma` (m, rad) at a state, and no velocity.
 FeatureMeasurement poseMeasured(const LioState& at, double sigma) {
   FeatureMeasurement measured;
-  measured.at = measured.found = at;
+  measured.found = at;
   measured.information.topLeftCorner<6, 6>() =
       1 / (sigma * sigma) * Eigen::Matrix<double, 6, 6>::Identity();
   return measured;
@@ -117,6 +128,39 @@ TEST_F(InertialSmootherTest, AnOpenDirectionThatWaversDoesNotTieThePositionDown)
   EXPECT_LT(not_told, 0.5 * told);
 }
 
+// A corridor along x, standing still: what the scans tell of the tilt goes with how far the body
+// has moved along it. The filter and the smoother are told the same.
+TEST(InertialSmootherInACorridor, BelievesWhatTheFiltersUpdateBelieves) {
+  ImuBuffer imu;
+  for (TimeNs t = 0; t <= 3 * kNsPerSecond; t += 5'000'000) {
+    imu.add({t, Vec3(0, 0, 9.80665), Vec3::Zero()});
+  }
+  const test::Walls corridor({1, 2});
+  const InertialStart start{.sigma_velocity_mps = 0.3, .sigma_acceleration_mps2 = 0.5};
+  InertialSmoother smoother(2, 9.80665);
+  smoother.begin(0, {}, start);
+  FeatureRegistration registration({});
+  const KeyFrameMap map = keyFramesOf(corridor);
+  const ScanFeatures features{corridor.points, {}};
+  for (int i = 1; i <= 25; ++i) {
+    const auto motion =
+        imu.integrate((i - 1) * kScan, i * kScan, 0.05, {}, Vec3::Zero(), Vec3::Zero());
+    smoother.predict(*motion, {});
+    const FreeFallScan scan(imu, i * kScan, i * kScan, 0.05, Vec3::Zero(), Vec3::Zero());
+    LioFilter filter({});
+    filter.begin(smoother.predicted(), smoother.predictedCovariance());
+    filter.update(corridor.points, scan, Vec3::Zero(), map.planes());
+    const FeatureMeasurement measured = registration.align(
+        features, scan, Vec3::Zero(), map, smoother.predicted(), smoother.predictedCovariance());
+    EXPECT_EQ(measured.open.cols(), 2) << "position and velocity along the corridor";
+    smoother.add(i * kScan, measured, Vec9::Zero(), false);
+    EXPECT_LT(boxminus(smoother.state(), filter.state()).norm(), 1e-7) << i;
+    const LioVector scale = filter.covariance().diagonal().cwiseSqrt().cwiseInverse();
+    const LioMatrix more = smoother.covariance() - filter.covariance();
+    EXPECT_LT((scale.asDiagonal() * more * scale.asDiagonal()).cwiseAbs().maxCoeff(), 1e-4) << i;
+  }
+}
+
 // Between two scans that know nothing of each other's pose, the motion is as unsure as both.
 TEST_F(InertialSmootherTest, TheMotionsCovarianceIsThatOfItsEnds) {
   ImuNoise blind;
@@ -157,7 +201,7 @@ TEST_F(InertialSmootherTest, IsLostWhereNothingHoldsIt) {
   EXPECT_FALSE(smoother_.isLost());
   FeatureMeasurement nothing;
   for (int i = 1; i <= 20 && !smoother_.isLost(); ++i) {
-    nothing.at = nothing.found = stateOf(motion_, 0.1 * i);
+    nothing.found = stateOf(motion_, 0.1 * i);
     step(i, nothing);
   }
   EXPECT_TRUE(smoother_.isLost());

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 namespace paloc {
@@ -53,6 +54,53 @@ TEST(KeyFrameMap, TheFirstKeyFrameCanBePlacedAnew) {
   LocalPlane plane;
   ASSERT_TRUE(map.planes().find(sensor - Vec3(0, 0, 1.05), -Vec3::UnitZ(), plane));
   EXPECT_NEAR(plane.centroid.z(), 0.05, 1e-4);
+}
+
+TEST(KeyFrameMap, OnceForgottenTheFirstKeyFrameStaysForgotten) {
+  KeyFrameLimits limits;
+  limits.max_key_frames = 4;
+  KeyFrameMap map(limits);
+  for (int i = 0; i < 5; ++i) map.add(floorUnder(Vec3(0.1 + 10 * i, 0.1, 1.1)), {});
+  map.replaceFirst(floorUnder(Vec3(0.1, 0.1, 1.1)), {});
+  LocalPlane plane;
+  EXPECT_FALSE(map.planes().find(Vec3(0.1, 0.1, 0.1), -Vec3::UnitZ(), plane));
+  EXPECT_TRUE(map.planes().find(Vec3(20.1, 0.1, 0.1), -Vec3::UnitZ(), plane)) << "the oldest left";
+}
+
+// What is left is known all the while, and as well as before.
+TEST(KeyFrameMap, ForgettingLeavesThePlanesOfTheOthersAsTheyAre) {
+  KeyFrameLimits limits;
+  limits.max_key_frames = 8;
+  KeyFrameMap map(limits);
+  const auto sensorOf = [](int i) { return Vec3(10.0 * i + 0.1, 0.1, 1.1); };
+  for (int i = 0; i < 30; ++i) {
+    map.add(floorUnder(sensorOf(i)), {});
+    EXPECT_GE(map.keyFrames(), std::min<std::size_t>(static_cast<std::size_t>(i) + 1, 6)) << i;
+    KeyFrameMap alone(limits);
+    for (int k = std::max(i - 5, 0); k <= i; ++k) {
+      alone.clear();
+      alone.add(floorUnder(sensorOf(k)), {});
+      LocalPlane plane, expected;
+      const Vec3 below = sensorOf(k) - Vec3::UnitZ();
+      ASSERT_TRUE(alone.planes().find(below, -Vec3::UnitZ(), expected));
+      ASSERT_TRUE(map.planes().find(below, -Vec3::UnitZ(), plane)) << i << " " << k;
+      EXPECT_EQ(plane.points, expected.points) << "each key frame counts once";
+      EXPECT_EQ(plane.centroid, expected.centroid);
+    }
+  }
+}
+
+// One that makes room costs no more than a few others.
+TEST(KeyFrameMap, NoKeyFramePaysForAllThatAreLeft) {
+  KeyFrameMap map({});
+  const auto floor = floorUnder(Vec3(0.1, 0.1, 1.1));
+  std::size_t most = 0;
+  for (int i = 0; i < 200; ++i) {
+    map.add(floor, {});
+    most = std::max(most, map.filled());
+  }
+  EXPECT_GT(map.keyFrames(), 40U);
+  EXPECT_LE(most, 4U);
 }
 
 TEST(KeyFrameMap, ForgetsWhatIsFarAndThenWhatIsOldSoThatMemoryIsBounded) {

@@ -12,7 +12,8 @@ namespace paloc::test {
 /// origin, in the middle of them.
 struct Walls {
   std::vector<MeasuredPoint> points;
-  LocalVoxelMap map{{}};
+  std::vector<Vec3> map_points;
+  LocalVoxelMap map{{}};  // of these
 
   explicit Walls(const std::vector<int>& axes) {
     std::mt19937_64 random(11);
@@ -23,6 +24,7 @@ struct Walls {
       Vec3 point(along(random), along(random), along(random));
       point[axis] = ((i / 6) % 2 == 0 ? 3 : -3) + noise(random);
       if (i < 58'000) {
+        map_points.push_back(point);
         map.add(point, point);
       } else {
         points.push_back({point, 0});

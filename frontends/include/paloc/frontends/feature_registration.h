@@ -16,16 +16,16 @@ struct ScanFeatures {
   std::vector<MeasuredPoint> planes, edges;
 };
 
-/// What the features of a scan say of pose and velocity at its end, linearized at a state.
+/// What the features of a scan say of pose and velocity at its end, linearized where they are
+/// found.
 ///
 /// Tangent (9): [position (m, odom frame), rotation on the right (rad), velocity (m/s, odom
 /// frame)]. The velocity is in it since the scan's distortion depends on it (see FreeFallScan).
 struct FeatureMeasurement {
-  LioState at;                          ///< the linearization point
-  Mat9 information = Mat9::Zero();      ///< 0 along what the scan leaves open
-  NullDirections<9> open{9, 0};         ///< and what that is, with the rotation on the left
-  Vec9 gradient = Vec9::Zero();         ///< of half the squared residuals
   LioState found;                       ///< where prediction and scan together put the body
+  Mat9 information = Mat9::Zero();      ///< of the scan alone; 0 along what it leaves open
+  NullDirections<9> open{9, 0};         ///< and what that is
+  Vec9 gradient = Vec9::Zero();         ///< of half the squared residuals, at `found`
   std::size_t matched = 0, points = 0;  ///< features with a plane or line, at the end; features
 
   double matchedShare() const {
@@ -33,10 +33,9 @@ struct FeatureMeasurement {
   }
 };
 
-/// Registers the features of a scan to the local map of key frames: Gauss-Newton on point-to-plane
-/// and point-to-line residuals with the prediction as prior, after LOAM and LIO-SAM (T. Shan et
-/// al., "LIO-SAM: Tightly-coupled Lidar Inertial Odometry via Smoothing and Mapping", 2020). What
-/// noise of normals alone would say is taken out (see InformativePart).
+/// Registers the features of a scan to the local map of key frames: planes and lines after LOAM and
+/// LIO-SAM (T. Shan et al., "LIO-SAM: Tightly-coupled Lidar Inertial Odometry via Smoothing and
+/// Mapping", 2020), with the prediction as prior, by the same iterated update as that of LioFilter.
 class PALOC_EXPORT FeatureRegistration {
  public:
   struct Limits {
@@ -48,17 +47,14 @@ class PALOC_EXPORT FeatureRegistration {
   explicit FeatureRegistration(const Limits& limits)
       : limits_(limits), planes_(limits.noise_floor_m), lines_(limits.noise_floor_m) {}
 
-  /// `covariance` (9 x 9) of the predicted state. `rigid`: the scan's distortion is left as it is,
-  /// where the map's is the same. The information is zero if there are too few matches.
+  /// `covariance` of the predicted state. `rigid`: the scan's distortion is left as it is, where
+  /// the map's is the same. The information is zero if there are too few matches.
   FeatureMeasurement align(const ScanFeatures& features, const FreeFallScan& scan,
                            const Vec3& sensor_body, const KeyFrameMap& map,
-                           const LioState& predicted, const Mat9& covariance, bool rigid = false);
+                           const LioState& predicted, const LioMatrix& covariance,
+                           bool rigid = false);
 
  private:
-  std::size_t match(const ScanFeatures& features, const FreeFallScan& scan, const Vec3& sensor_body,
-                    const KeyFrameMap& map, const LioState& x, double ageing, double gate_m);
-  PointToPlaneSums<9> sums(double widening_m, double ageing);
-
   Limits limits_;
   PlaneMatches planes_;
   LineMatches lines_;

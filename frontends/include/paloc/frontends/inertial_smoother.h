@@ -20,6 +20,12 @@ struct InertialStart {
 /// The state of a LiDAR-inertial odometry on the estimator's own smoother: a node at the end of
 /// each scan, IMU and bias-walk factors between them, gravity of known length that all share, and
 /// what each scan measured of pose and velocity. The odom frame stands for the map's of State.
+///
+/// What a scan tells beside the directions that it leaves open depends on the covariance then (see
+/// IteratedUpdate), and so on where the way to it was linearized; linearized elsewhere, or beside
+/// other scans of the window, it would say something of the open direction as well. So the window
+/// ends with such a scan: the newest node is as the update has it, and the next window begins
+/// there.
 class PALOC_EXPORT InertialSmoother {
  public:
   /// `gravity_mps2`: the local strength of gravity.
@@ -31,16 +37,18 @@ class PALOC_EXPORT InertialSmoother {
   /// Predicts the state after the motion that an IMU measured.
   void predict(const Preintegration& imu, const ImuNoise& noise);
   const LioState& predicted() const { return predicted_; }
-  /// Of the predicted [position, rotation on the right, velocity].
-  Mat9 predictedCovariance() const { return covariance_predicted_.topLeftCorner<9, 9>(); }
+  LioMatrix predictedCovariance() const;
 
-  /// Adds the node predicted, with what a scan says there; its information may be zero. `blur`:
-  /// variances of errors of the scan (9), of which its own information knows nothing. The step that
-  /// the scan makes tells of the IMU's noise if `compare`.
+  /// Adds the node predicted, with what a scan that was registered with this prediction says there;
+  /// its information may be zero. Unless it is blurred, the newest node is then where the scan was
+  /// found, with the covariance that the registration's update has. `blur`: variances of errors of
+  /// the scan (9), of which its own information knows nothing. The step that the scan makes tells
+  /// of the IMU's noise if `compare`.
   void add(TimeNs t_ns, const FeatureMeasurement& scan, const Vec9& blur, bool compare);
 
   /// The newest node.
   const LioState& state() const { return state_; }
+  LioMatrix covariance() const;
   /// The node of a time, as later scans see it; nothing if it has left the window.
   std::optional<LioState> smoothed(TimeNs t_ns) const;
 
@@ -51,13 +59,17 @@ class PALOC_EXPORT InertialSmoother {
   double imuFactor() const { return agreement_.imuFactor(); }
 
  private:
+  void beginWindow(TimeNs t_ns, const State& state, const StateMatrix& covariance);
   void takeNewest();
+  void holdLengthOfGravity();
 
   double gravity_mps2_;
   SmootherSettings settings_;
   FixedLagSmoother smoother_;
   ImuAgreement agreement_;
-  State node_;  // the newest, and what is told of it
+  bool open_ = false;  // the newest scan left directions open
+  TimeNs t_ns_ = 0;    // of the newest node
+  State node_;         // it, and what is told of it
   LioState state_;
   StateMatrix covariance_ = StateMatrix::Zero();
   // The prediction from it.

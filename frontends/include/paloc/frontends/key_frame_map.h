@@ -21,20 +21,26 @@ struct KeyFrameLimits {
 };
 
 /// The surroundings as the last key frames saw them: their plane points in voxels, their edge
-/// points likewise. Memory is bounded: with too many, those far away are forgotten, then the
-/// oldest, until three quarters are left, and the voxels are filled anew with what is kept.
+/// points likewise. Memory is bounded: with too many, the oldest are forgotten until three quarters
+/// are left, and those that were far away.
+///
+/// What is in a voxel cannot be told apart again, so the voxels of those that are left are filled
+/// anew, and beforehand: some key frames with each that is added, lest one scan pays for all.
 class PALOC_EXPORT KeyFrameMap {
  public:
   explicit KeyFrameMap(const KeyFrameLimits& limits);
 
   /// Adds the features of a scan, in the map's frame, seen from the end of their rays.
   void add(std::span<const PlacedPoint> planes, std::span<const PlacedPoint> edges);
-  /// Puts the features of the first key frame elsewhere, where a better motion puts them.
+  /// Puts the features of the first key frame elsewhere, where a better motion puts them, unless it
+  /// is forgotten.
   void replaceFirst(std::span<const PlacedPoint> planes, std::span<const PlacedPoint> edges);
 
-  const LocalVoxelMap& planes() const { return planes_; }
-  const LineVoxels& lines() const { return lines_; }
+  const LocalVoxelMap& planes() const { return now_.planes; }
+  const LineVoxels& lines() const { return now_.lines; }
   std::size_t keyFrames() const { return frames_.size(); }
+  /// How many key frames the last add() has put into voxels: what it cost.
+  std::size_t filled() const { return filled_; }
 
   void clear();
   std::size_t bytes() const;
@@ -43,18 +49,30 @@ class PALOC_EXPORT KeyFrameMap {
   struct KeyFrame {
     Vec3 sensor = Vec3::Zero();          // map's frame (m)
     std::vector<Point3f> planes, edges;  // from the sensor, along the map's axes
+    bool in_next = false;
+  };
+  struct Voxels {
+    LocalVoxelMap planes;
+    LineVoxels lines;
+
+    void add(const KeyFrame& frame);
+    void clear();
+    std::size_t bytes() const { return planes.bytes() + lines.bytes(); }
   };
 
   static KeyFrame keyFrameOf(std::span<const PlacedPoint> planes,
                              std::span<const PlacedPoint> edges);
-  void fill(const KeyFrame& frame);
-  void refill();
-  void forget();
+  static Voxels emptyVoxels(const KeyFrameLimits& limits);
+  void fillNext();
+  void takeNext();
 
   KeyFrameLimits limits_;
+  std::size_t kept_;             // key frames that are left
   std::deque<KeyFrame> frames_;  // oldest first
-  LocalVoxelMap planes_;
-  LineVoxels lines_;
+  bool has_first_ = false;       // the oldest is the first since clear()
+  std::size_t next_frame_ = 0;   // of these: the next one that is to go into `next_`, if it may
+  std::size_t filled_ = 0;
+  Voxels now_, next_;
 };
 
 }  // namespace paloc
