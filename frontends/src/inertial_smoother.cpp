@@ -99,6 +99,50 @@ ToLio errorToLio(const State& x) {
   return derivative;
 }
 
+StateVector widened(const Vec9& scan) {
+  StateVector vector = StateVector::Zero();
+  vector.head<9>() = scan;
+  return vector;
+}
+
+/// The update of a node's prediction with what a scan says beside the directions that it leaves
+/// open, as in IteratedUpdate: the large variance along these stays out of all products, whose
+/// rounding would be larger than what is known across them.
+class ConsideredUpdate {
+ public:
+  ConsideredUpdate(const StateMatrix& P, const Mat9& known, const NullDirections<9>& open) : P_(P) {
+    using Directions = Eigen::Matrix<double, tangent::kDim, Eigen::Dynamic, 0, tangent::kDim, 9>;
+    Directions E = Directions::Zero(tangent::kDim, open.cols());
+    E.topRows<9>() = open;
+    open_part_ = openPart<tangent::kDim>(P, E);
+    const StateMatrix rest = P - open_part_ * P;
+    touched_ = 0.5 * (rest + rest.transpose());
+    measured_.topLeftCorner<9, 9>() = known;
+    system_.compute(StateMatrix::Identity() + touched_ * measured_);
+  }
+
+  StateMatrix kept() const { return StateMatrix::Identity() - open_part_; }
+  const StateMatrix& measured() const { return measured_; }
+  /// From the prediction; `asked` is the scan's, at what is `off` from it.
+  StateVector stepFor(const StateVector& asked, const StateVector& off) const {
+    return system_.solve(touched_ * (asked + measured_ * (kept() * off)));
+  }
+  StateMatrix covariance() const {
+    const StateMatrix updated = system_.solve(touched_) + (P_ - touched_);
+    return 0.5 * (updated + updated.transpose());
+  }
+  StateMatrix gained() const { return system_.solve(touched_ * measured_ * touched_); }
+  /// What it makes of E[error of the state . some other error].
+  StateMatrix updated(const StateMatrix& cross) const {
+    const StateMatrix open = open_part_ * cross;
+    return system_.solve(cross - open) + open;
+  }
+
+ private:
+  StateMatrix P_, open_part_, touched_, measured_ = StateMatrix::Zero();
+  Eigen::PartialPivLU<StateMatrix> system_;
+};
+
 LioMatrix covarianceOfLio(const State& x, const StateMatrix& covariance) {
   const ToLio to_lio = errorToLio(x);
   const LioMatrix P = to_lio * covariance * to_lio.transpose();
@@ -191,37 +235,33 @@ void InertialSmoother::add(TimeNs t_ns, const FeatureMeasurement& scan, const Ve
   const Vec9 asked = (Mat9::Identity() + scan.information * blur.asDiagonal())
                          .partialPivLu()
                          .solve(-scan.gradient);
-  LioUpdate::Directions open = LioUpdate::Directions::Zero(lio::kDim, scan.open.cols());
-  open.topRows<9>() = scan.open;
-  const LioMatrix open_part = openPart<lio::kDim>(predictedCovariance(), open);
-  const Eigen::Matrix<double, 9, tangent::kDim> told =
-      (LioMatrix::Identity() - open_part).topRows<9>() * errorToLio(next_.state);
-  const StateMatrix information = told.transpose() * known * told;
-  const StateVector vector = told.transpose() * asked;
+  const ConsideredUpdate update(covariance_predicted_, known, scan.open);
+  const StateMatrix information = update.kept().transpose() * update.measured() * update.kept();
+  const StateVector vector = update.kept().transpose() * widened(asked);
+  // As the prediction took it: in a new window it is inverted twice, and the motion's covariance is
+  // a difference of large numbers along an open direction.
+  const Pose before = state_.T_odom_body;
+  const Mat6 covariance_before = covariance_.topLeftCorner<6, 6>();
   if (open_) beginWindow(t_ns_, node_, covariance_);
   next_.t_ns = t_ns_ = t_ns;
   next_.node_factors.push_back(PriorFactor(toNode(scan.found), information, vector));
   next_.node_factors.push_back(lengthOfGravity(gravity_mps2_));
-  const Pose before = state_.T_odom_body;
-  const Mat6 covariance_before = covariance_.topLeftCorner<6, 6>();
-  const StateMatrix& P = covariance_predicted_;
-  const Eigen::PartialPivLU<StateMatrix> system(StateMatrix::Identity() + P * information);
   const StateVector step =
-      system.solve(P * (vector + information * boxminus(toNode(scan.found), next_.state)));
+      update.stepFor(widened(asked), boxminus(toNode(scan.found), next_.state));
   next_.state = boxplus(next_.state, step);
   const State by_update = next_.state;
   smoother_.add(std::move(next_));
   takeNewest();
-  const StateMatrix cross = system.solve(cross_), updated = system.solve(P);
+  const StateMatrix cross = update.updated(cross_), updated = update.covariance();
   open_ = scan.open.cols() > 0;
   if (open_) {
     node_ = by_update;
     state_ = toLio(node_, gravity_mps2_);
-    covariance_ = 0.5 * (updated + updated.transpose());
+    covariance_ = updated;
   }
   if (compare) {
     // Not the smoother's own: along open directions these are differences of large numbers.
-    agreement_.compare(step.head<6>(), system.solve(P * information * P).topLeftCorner<6, 6>());
+    agreement_.compare(step.head<6>(), update.gained().topLeftCorner<6, 6>());
   }
   motion_covariance_ =
       covarianceOfMotion(before, state_.T_odom_body, covariance_before,

@@ -72,7 +72,7 @@ LioSamTracker::Outcome LioSamTracker::add(const LidarFrame& frame, const ImuBuff
   keepWorst(smoother_.imuFactor());
   StageScope stage(timer_, "map update");
   settleFirst();
-  if (used && inertia_.measured() && isKeyFrame(measured)) addKeyFrame();
+  if (used && inertia_.measured()) considerKeyFrame(measured);
   return used ? Outcome::kTracked : Outcome::kCoasted;
 }
 
@@ -172,19 +172,24 @@ void LioSamTracker::extractFeatures(const LidarFrame& frame, bool has_times) {
   features_.edges = everyNth(map_features_.edges, static_cast<std::size_t>(s.registration_edges));
 }
 
-// So are, at each place, some of the scans that leave directions open: the map may only have too
-// few points yet to tell, as at the start in a stairwell, of whose height one scan alone says too
-// little. What the IMU then makes of it would go into all of the map that comes later.
-bool LioSamTracker::isKeyFrame(const FeatureMeasurement& measured) {
+// Key frames are, besides where the body has moved or the map explains little, some of the scans at
+// each place that leave directions open: the map may only have too few points yet to tell, as at
+// the start in a stairwell, of whose height one scan alone says too little. What the IMU then makes
+// of it would go into all of the map that comes later.
+void LioSamTracker::considerKeyFrame(const FeatureMeasurement& measured) {
   const LioSamSettings& s = settings_.lio_sam;
   const Pose motion = last_key_frame_.inverse() * smoother_.state().T_odom_body;
-  if (motion.position.norm() > s.key_frame_distance_m ||
-      so3::log(motion.rotation).norm() > s.key_frame_turn_rad ||
-      measured.matchedShare() < s.key_frame_matched) {
+  const bool elsewhere = motion.position.norm() > s.key_frame_distance_m ||
+                         so3::log(motion.rotation).norm() > s.key_frame_turn_rad ||
+                         measured.matchedShare() < s.key_frame_matched;
+  if (elsewhere) {
     open_here_ = 0;
-    return true;
+  } else if (measured.open.cols() > 0 && open_here_ < kMostOpen) {
+    ++open_here_;
+  } else {
+    return;
   }
-  return measured.open.cols() > 0 && open_here_++ < kMostOpen;
+  addKeyFrame();
 }
 
 // `rigid` as of FeatureRegistration.

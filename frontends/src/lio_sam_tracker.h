@@ -42,7 +42,7 @@ class LioSamTracker : public InertialTracker {
   void placeFirst(const LioState& x);
   FeatureMeasurement align(bool rigid = false);
   void extractFeatures(const LidarFrame& frame, bool has_times);
-  bool isKeyFrame(const FeatureMeasurement& measured);
+  void considerKeyFrame(const FeatureMeasurement& measured);
   void addKeyFrame(bool rigid = false);
 
   RingFeatures rings_;
