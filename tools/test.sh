@@ -24,13 +24,15 @@ if ((sanitize)); then
     -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1" >/dev/null
   # MRPT and Embree keep objects until the process ends; they are not ours to free.
   export ASAN_OPTIONS=detect_leaks=0:strict_string_checks=1 UBSAN_OPTIONS=print_stacktrace=1
-  filter=(--label-exclude 'whole|cli')
+  parts=(core map frontends config tools)
+  targets=(--target "${parts[@]/%/_tests}")
+  filter=(--label-regex "^($(IFS='|'; echo "${parts[*]}"))$")
 else
   build=build
   cmake -S . -B $build -G Ninja -DCMAKE_BUILD_TYPE=Release >/dev/null
-  filter=()
+  targets=() filter=()
 fi
-cmake --build $build
+cmake --build $build "${targets[@]}"
 ctest --test-dir $build --output-on-failure -j "$(nproc)" "${filter[@]}"
 if ((long)); then
   bash tools/install_packages.sh lint

@@ -33,6 +33,8 @@ using ConstSegment = Eigen::Map<const Eigen::VectorXd>;
 ChainCholesky::ChainCholesky() {
   cholmod_start(&common_);
   common_.print = 0;
+  // Also for the batch: with no fill beyond two blocks a column, supernodes save no work. 20,000
+  // blocks of 15 take 0.10 s like this and 0.53 s supernodal with Debian's libblas3.
   common_.supernodal = CHOLMOD_SIMPLICIAL;
   common_.grow2 = 0;  // columns have their final length from the start
   allocate(kFirstCapacity);
