@@ -7,6 +7,7 @@
 
 #include "lio_update.h"
 #include "motion_covariance.h"
+#include "paloc/frontends/consider_update.h"
 
 namespace paloc {
 namespace {
@@ -105,43 +106,14 @@ StateVector widened(const Vec9& scan) {
   return vector;
 }
 
-/// The update of a node's prediction with what a scan says beside the directions that it leaves
-/// open, as in IteratedUpdate: the large variance along these stays out of all products, whose
-/// rounding would be larger than what is known across them.
-class ConsideredUpdate {
- public:
-  ConsideredUpdate(const StateMatrix& P, const Mat9& known, const NullDirections<9>& open) : P_(P) {
-    using Directions = Eigen::Matrix<double, tangent::kDim, Eigen::Dynamic, 0, tangent::kDim, 9>;
-    Directions E = Directions::Zero(tangent::kDim, open.cols());
-    E.topRows<9>() = open;
-    open_part_ = openPart<tangent::kDim>(P, E);
-    const StateMatrix rest = P - open_part_ * P;
-    touched_ = 0.5 * (rest + rest.transpose());
-    measured_.topLeftCorner<9, 9>() = known;
-    system_.compute(StateMatrix::Identity() + touched_ * measured_);
-  }
+using NodeUpdate = ConsiderUpdate<tangent::kDim>;
 
-  StateMatrix kept() const { return StateMatrix::Identity() - open_part_; }
-  const StateMatrix& measured() const { return measured_; }
-  /// From the prediction; `asked` is the scan's, at what is `off` from it.
-  StateVector stepFor(const StateVector& asked, const StateVector& off) const {
-    return system_.solve(touched_ * (asked + measured_ * (kept() * off)));
-  }
-  StateMatrix covariance() const {
-    const StateMatrix updated = system_.solve(touched_) + (P_ - touched_);
-    return 0.5 * (updated + updated.transpose());
-  }
-  StateMatrix gained() const { return system_.solve(touched_ * measured_ * touched_); }
-  /// What it makes of E[error of the state . some other error].
-  StateMatrix updated(const StateMatrix& cross) const {
-    const StateMatrix open = open_part_ * cross;
-    return system_.solve(cross - open) + open;
-  }
-
- private:
-  StateMatrix P_, open_part_, touched_, measured_ = StateMatrix::Zero();
-  Eigen::PartialPivLU<StateMatrix> system_;
-};
+NodeUpdate::Directions widened(const NullDirections<9>& considered) {
+  NodeUpdate::Directions directions =
+      NodeUpdate::Directions::Zero(tangent::kDim, considered.cols());
+  directions.topRows<9>() = considered;
+  return directions;
+}
 
 LioMatrix covarianceOfLio(const State& x, const StateMatrix& covariance) {
   const ToLio to_lio = errorToLio(x);
@@ -225,9 +197,10 @@ LioMatrix InertialSmoother::predictedCovariance() const {
 
 LioMatrix InertialSmoother::covariance() const { return covarianceOfLio(node_, covariance_); }
 
-// The scan tells of the error less its open part: a direction that is open comes out a little
-// otherwise at each scan, and with an open position of large variance, what two scans know across
-// two such directions would tie it down, and the smallest residual across it move it far.
+// Along what a scan leaves open the node is considered, not estimated: an open direction comes out
+// a little otherwise at each scan, and with a position of large variance along it, what two scans
+// know across two such directions would tie it down, and the smallest residual across it move it
+// far.
 void InertialSmoother::add(TimeNs t_ns, const FeatureMeasurement& scan, const Vec9& blur,
                            bool compare) {
   const Mat9 known = blurred(scan.information, blur);
@@ -235,19 +208,21 @@ void InertialSmoother::add(TimeNs t_ns, const FeatureMeasurement& scan, const Ve
   const Vec9 asked = (Mat9::Identity() + scan.information * blur.asDiagonal())
                          .partialPivLu()
                          .solve(-scan.gradient);
-  const ConsideredUpdate update(covariance_predicted_, known, scan.open);
-  const StateMatrix information = update.kept().transpose() * update.measured() * update.kept();
-  const StateVector vector = update.kept().transpose() * widened(asked);
+  StateMatrix information = StateMatrix::Zero();
+  information.topLeftCorner<9, 9>() = known;
+  const StateVector off = boxminus(toNode(scan.found), next_.state);
+  NodeUpdate update;
+  update.begin(covariance_predicted_, widened(scan.open));
+  update.measure(information);
+  const StateVector step = update.step(StateVector::Zero(), -(widened(asked) + information * off));
   // As the prediction took it: in a new window it is inverted twice, and the motion's covariance is
   // a difference of large numbers along an open direction.
   const Pose before = state_.T_odom_body;
   const Mat6 covariance_before = covariance_.topLeftCorner<6, 6>();
   if (open_) beginWindow(t_ns_, node_, covariance_);
   next_.t_ns = t_ns_ = t_ns;
-  next_.node_factors.push_back(PriorFactor(toNode(scan.found), information, vector));
+  next_.node_factors.push_back(PriorFactor(toNode(scan.found), information, widened(asked)));
   next_.node_factors.push_back(lengthOfGravity(gravity_mps2_));
-  const StateVector step =
-      update.stepFor(widened(asked), boxminus(toNode(scan.found), next_.state));
   next_.state = boxplus(next_.state, step);
   const State by_update = next_.state;
   smoother_.add(std::move(next_));

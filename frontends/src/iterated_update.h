@@ -1,11 +1,10 @@
 #pragma once
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "open_part.h"
+#include "paloc/frontends/consider_update.h"
 #include "paloc/frontends/point_to_plane_sums.h"
 
 namespace paloc {
@@ -28,9 +27,8 @@ struct IterationLimits {
 /// plane or line in a local map (W. Xu et al., "FAST-LIO2", 2022, section V-C). The state has D
 /// dimensions, of which the scan measures N: those of PointToPlaneSums<N>.
 ///
-/// What the scan does not tell is treated as S. F. Schmidt's consider states: it updates the rest
-/// as if that along open directions were given, and leaves it as it was (see openPart). Left in the
-/// equations, an open position of large variance would follow from the smallest error of the
+/// Along the directions that the scan leaves open the state is considered, not estimated (see
+/// ConsiderUpdate): an open position of large variance would follow from the smallest error of the
 /// direction that is believed to be open.
 template <class State, int D, int N>
 class IteratedUpdate {
@@ -38,7 +36,7 @@ class IteratedUpdate {
   using Vector = Eigen::Matrix<double, D, 1>;
   using Matrix = Eigen::Matrix<double, D, D>;
   using ToMeasured = Eigen::Matrix<double, N, D>;
-  using Directions = Eigen::Matrix<double, D, Eigen::Dynamic, 0, D, N>;
+  using Directions = typename ConsiderUpdate<D>::Directions;
 
   explicit IteratedUpdate(const IterationLimits& limits) : limits_(limits) {}
 
@@ -50,7 +48,7 @@ class IteratedUpdate {
   bool run(const State& prior, const Matrix& covariance, double lever_m, Matches& matches,
            Derivative toMeasured) {
     state_ = prior;
-    considerOpen(covariance, Directions(D, 0));
+    update_.begin(covariance, open_);
     const double deviation = displacementSigma<D>(covariance, lever_m);
     const double gate = std::min(limits_.max_gate_m, 3 * deviation + kLeastGate);
     double widening = std::min(deviation, gate);
@@ -65,16 +63,15 @@ class IteratedUpdate {
       PointToPlaneSums<N> sums = matches.sums();
       if (widening > 0 || i == 0) {
         informative.emplace(sums.information, matches.normalNoise());
-        considerOpen(covariance, to_measured.transpose() * informative->open());
-        widening = std::min(widening, displacementSigma<D>(touched_, lever_m));
+        open_ = to_measured.transpose() * informative->open();
+        update_.begin(covariance, open_);
+        widening = std::min(widening, displacementSigma<D>(update_.touched(), lever_m));
       }
       informative->apply(sums);
       information_ = to_measured.transpose() * sums.information * to_measured;
       const Vector gradient = to_measured.transpose() * sums.gradient;
-      // (P^-1 + H) d = P^-1 (prior - x) - gradient, times P: no inverse of a covariance is needed.
-      const Matrix system = Matrix::Identity() + touched_ * information_;
-      const Vector step =
-          system.partialPivLu().solve(boxminus(prior, state_) - touched_ * gradient);
+      update_.measure(information_);
+      const Vector step = update_.step(-boxminus(prior, state_), gradient);
       if (!step.allFinite()) return false;
       state_ = boxplus(state_, step);
       gradient_ = gradient + information_ * step;
@@ -82,9 +79,7 @@ class IteratedUpdate {
                    step.template segment<3>(3).norm() < kConvergedRad;
       widening = widening < kLeastWidening ? 0 : kNarrowing * widening;
     }
-    system_.compute(Matrix::Identity() + touched_ * information_);
-    const Matrix updated = system_.solve(touched_) + (covariance - touched_);
-    covariance_ = 0.5 * (updated + updated.transpose());
+    covariance_ = update_.covariance();
     return true;
   }
 
@@ -96,12 +91,14 @@ class IteratedUpdate {
   /// What the update makes of E[error of the state . some other error].
   template <class Cross>
   Cross updated(const Cross& cross) const {
-    return system_.solve(cross - open_part_ * cross) + open_part_ * cross;
+    return update_.updated(cross);
   }
 
+  /// The covariance of the step from the prior to state().
+  Matrix gained() const { return update_.gained(); }
+
   /// What the scan told, linearized at state(): its information, the gradient there of half the
-  /// squared residuals, and the directions that it leaves open. Who applies the information to what
-  /// openPart() of these directions leaves of the error finds state() and covariance() again.
+  /// squared residuals, and the directions that it leaves open.
   const Matrix& information() const { return information_; }
   const Vector& gradient() const { return gradient_; }
   const Directions& open() const { return open_; }
@@ -113,13 +110,6 @@ class IteratedUpdate {
   static constexpr double kConvergedM = 3e-4, kConvergedRad = 1e-4;
   static constexpr std::size_t kMinRows = 20;
 
-  void considerOpen(const Matrix& P, const Directions& E) {
-    open_ = E;
-    open_part_ = openPart<D>(P, E);
-    const Matrix rest = P - open_part_ * P;
-    touched_ = 0.5 * (rest + rest.transpose());
-  }
-
   IterationLimits limits_;
   bool converged_ = false;
   State state_;
@@ -127,8 +117,7 @@ class IteratedUpdate {
   Matrix information_ = Matrix::Zero();
   Vector gradient_ = Vector::Zero();
   Directions open_{D, 0};
-  Matrix open_part_ = Matrix::Zero(), touched_ = Matrix::Zero();
-  Eigen::PartialPivLU<Matrix> system_;
+  ConsiderUpdate<D> update_;
 };
 
 }  // namespace paloc

@@ -53,7 +53,7 @@ std::size_t LioFilter::update(const std::vector<MeasuredPoint>& points, const Fr
   }
   if (!rigid) {
     agreement_.compare(boxminus(update.state(), state_).head<6>(),
-                       (covariance_ - update.covariance()).topLeftCorner<6, 6>());
+                       update.gained().topLeftCorner<6, 6>());
   }
   covariance_ = update.covariance();
   cross_ = update.updated(cross_);

@@ -1,6 +1,7 @@
 #include "paloc/frontends/point_to_plane_sums.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -56,25 +57,30 @@ void PointToPlaneSums<N>::addMultiples(const Mat6& of_pose, const PointToPlane& 
 template <int N>
 void InformativePart<N>::addOpen(const Vector& direction) {
   const Vector rest = direction - open_ * (open_.transpose() * direction).eval();
-  if (open_.cols() == N || !(rest.norm() > 1e-6)) return;
+  if (open_.cols() == N || !(rest.norm() > 1e-3)) return;
   open_.conservativeResize(Eigen::NoChange, open_.cols() + 1);
   open_.col(open_.cols() - 1) = rest.normalized();
 }
 
-// `floor` is added to the noise, so that it can be inverted.
+// Of the block of `Size` unknowns from `at` on. `floor` is added to the noise, so that it can be
+// inverted.
 template <int N>
+template <int Size>
 void InformativePart<N>::findOpen(const Matrix& information, const Matrix& noise, int at,
                                   double floor) {
-  const Mat3 n = noise.template block<3, 3>(at, at) + floor * Mat3::Identity();
-  const Mat3 known = information.template block<3, 3>(at, at);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Mat3> solver(known, n);
-  for (int i = 0; i < 3; ++i) {
+  using Block = Eigen::Matrix<double, Size, Size>;
+  const Block n = noise.template block<Size, Size>(at, at) + floor * Block::Identity();
+  const Block known = information.template block<Size, Size>(at, at);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Block> solver(known, n);
+  for (int i = 0; i < Size; ++i) {
     if (solver.eigenvalues()[i] >= kStandsOut) continue;
-    const Vec3 axis = solver.eigenvectors().col(i).normalized();
-    // A scan that does not see a displacement does not see the velocity along it either.
-    for (int derivative = at; derivative + 3 <= N; derivative += 6) {
+    const Eigen::Matrix<double, Size, 1> axis = solver.eigenvectors().col(i).normalized();
+    // A scan that does not see a displacement does not see the velocity along it either. Where the
+    // scan's rotation is taken from a gyroscope, it sees the velocity no better than the rate.
+    for (int derivative = at; derivative < N; derivative += 6) {
+      const int known_by_scan = std::min(Size, N - derivative);
       Vector direction = Vector::Zero();
-      direction.template segment<3>(derivative) = axis;
+      direction.segment(derivative, known_by_scan) = axis.head(known_by_scan);
       addOpen(direction);
     }
   }
@@ -83,8 +89,10 @@ void InformativePart<N>::findOpen(const Matrix& information, const Matrix& noise
 template <int N>
 InformativePart<N>::InformativePart(const Matrix& information, const Matrix& noise) {
   const double floor = 1e-9 * noise.diagonal().maxCoeff() + 1e-12;
-  findOpen(information, noise, 0, floor);
-  findOpen(information, noise, 3, floor);
+  findOpen<3>(information, noise, 0, floor);
+  findOpen<3>(information, noise, 3, floor);
+  projector_ = Matrix::Identity() - open_ * open_.transpose();
+  findOpen<6>(projector_ * information * projector_, projector_ * noise * projector_, 0, floor);
   projector_ = Matrix::Identity() - open_ * open_.transpose();
   const Matrix n = projector_ * noise * projector_ + floor * Matrix::Identity();
   const Matrix known = projector_ * information * projector_;

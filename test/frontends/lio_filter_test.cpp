@@ -52,6 +52,29 @@ TEST(LioFilter, WhatIsOpenStaysAsItWasPredicted) {
   for (int axis = 1; axis < 3; ++axis) EXPECT_LT(std::sqrt(after(axis, axis)), 0.01) << axis;
 }
 
+// While a body goes along a corridor, what the IMU made of its errors goes with the way along it.
+// Walls tell the rest all the same.
+TEST(LioFilter, WhatWentWithAnOpenDirectionIsMeasuredWhole) {
+  const ImuBuffer imu = restingImu();
+  const test::Walls corridor({1, 2});
+  LioMatrix covariance = somewhatSure(0.01);
+  LioVector along = LioVector::Zero();
+  along[lio::kPosition] = 5;                                   // m, where the others are:
+  along.segment<3>(lio::kRotation) = Vec3(0.02, 0.01, -0.02);  // rad
+  along[lio::kPosition + 1] = 0.03;                            // m
+  covariance += along * along.transpose();
+  LioFilter filter({});
+  filter.begin({}, covariance);
+  constexpr TimeNs kEnd = 100'000'000;
+  filter.predict(*imu.integrate(0, kEnd, 0.05, {}, Vec3::Zero(), Vec3::Zero()), {});
+  const FreeFallScan scan(imu, kEnd, kEnd, 0.05, Vec3::Zero(), Vec3::Zero());
+  filter.update(corridor.points, scan, Vec3::Zero(), corridor.map);
+  const LioVector sigma = filter.covariance().diagonal().cwiseSqrt();
+  EXPECT_GT(sigma[lio::kPosition], 4.9);
+  EXPECT_LT(sigma.segment<2>(lio::kPosition + 1).maxCoeff(), 0.005);
+  EXPECT_LT(sigma.segment<3>(lio::kRotation).maxCoeff(), 0.002);
+}
+
 // Of an update that knows nothing, the motion's covariance is that of the prediction: errors that
 // both poses share cancel.
 TEST(LioFilter, TheMotionsCovarianceLeavesOutWhatBothPosesShare) {

@@ -111,6 +111,36 @@ TEST(InformativePart, ATunnelIsOpenAlongItsAxisAndNowhereElse) {
   EXPECT_GT(scan.sums.information(1, 1), 1e6) << "across it";
 }
 
+// Neither the position alone is open in a circular hall, seen from beside its axis, nor the
+// rotation: a turn about its axis is both.
+TEST(InformativePart, ACircularHallIsOpenToATurnAboutItsAxis) {
+  Random random(11);
+  NoisyScan scan;
+  const Vec3 axis(2, 1, 0);
+  for (int i = 0; i < 1500; ++i) {
+    const double angle = random.uniform(0, 2 * std::numbers::pi);
+    const Vec3 outwards(std::cos(angle), std::sin(angle), 0);
+    if (i % 3 == 0) {
+      const Vec3 on_floor = axis + random.uniform(1, 6) * outwards;
+      scan.add(on_floor - 1.5 * Vec3::UnitZ(), Vec3::UnitZ(), random);
+    } else {
+      scan.add(axis + 6 * outwards + random.uniform(-1.5, 3) * Vec3::UnitZ(), -outwards, random);
+    }
+  }
+  const InformativePart<9> part(scan.sums.information, scan.noise.information);
+  EXPECT_EQ(part.open().cols(), 2);
+  Vec9 turn = Vec9::Zero();
+  turn.head<3>() = axis.cross(Vec3::UnitZ());
+  turn.segment<3>(3) = Vec3::UnitZ();
+  EXPECT_GT(openShare(part, turn), 0.999);
+  Vec9 velocity = Vec9::Zero();
+  velocity.tail<3>() = turn.head<3>();
+  EXPECT_GT(openShare(part, velocity), 0.999) << "known no better than the rate";
+  part.apply(scan.sums);
+  EXPECT_LT(turn.dot(scan.sums.information * turn),
+            1e-6 * turn.squaredNorm() * scan.sums.information.trace());
+}
+
 TEST(InformativePart, ARoomIsNotOpenAndLosesNothing) {
   Random random(10);
   NoisyScan scan;

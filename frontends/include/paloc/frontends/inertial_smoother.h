@@ -21,11 +21,10 @@ struct InertialStart {
 /// each scan, IMU and bias-walk factors between them, gravity of known length that all share, and
 /// what each scan measured of pose and velocity. The odom frame stands for the map's of State.
 ///
-/// What a scan tells beside the directions that it leaves open depends on the covariance then (see
-/// IteratedUpdate), and so on where the way to it was linearized; linearized elsewhere, or beside
-/// other scans of the window, it would say something of the open direction as well. So the window
-/// ends with such a scan: the newest node is as the update has it, and the next window begins
-/// there.
+/// Along directions that a scan leaves open the node is to stay as it was predicted (see
+/// ConsiderUpdate); beside other scans of the window, the smoother would estimate it there as well.
+/// So the window ends with such a scan: the newest node is as the update has it, and the next
+/// window begins there.
 class PALOC_EXPORT InertialSmoother {
  public:
   /// `gravity_mps2`: the local strength of gravity.

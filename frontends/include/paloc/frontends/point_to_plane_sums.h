@@ -68,8 +68,8 @@ using NullDirections = Eigen::Matrix<double, N, Eigen::Dynamic, 0, N, N>;
 ///
 /// Open directions of the position and of the rotation alone are looked for first: a joint null
 /// vector of an open position has small parts of well-known rotation in it, by noise, and what is
-/// left across it would still tie the position down. What is open jointly only, as a turn about the
-/// axis of a circular hall, is taken out of the information, but is not among `open()`.
+/// left across it would still tie the position down. Then those of both together: a turn about the
+/// axis of a circular hall.
 template <int N>
 class InformativePart {
  public:
@@ -88,10 +88,11 @@ class InformativePart {
 
  private:
   void addOpen(const Vector& direction);
+  template <int Size>
   void findOpen(const Matrix& information, const Matrix& noise, int at, double floor);
 
   NullDirections<N> open_{N, 0};
-  Matrix projector_;  // on what is known of single blocks
+  Matrix projector_;  // on what is known
   Matrix root_;       // of the scaling, applied from both sides
 };
 
