@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "iterated_update.h"
 #include "motion_covariance.h"
@@ -17,6 +18,9 @@ constexpr double kLostSigma_m = 100;
 constexpr double kBend = 0.5, kFollows = 0.25;
 // What a bent chord cannot show of an acceleration that changes twice a second, in a dt^2.
 constexpr double kMisfit = 0.04;
+// And what the best bent chord leaves of it at the end of its scan, where the acceleration changes
+// as a walk's does (Hz): x''' dt^3 / 120, of a cubic beside the parabola that fits it best.
+constexpr double kChanges = 1.4, kLeftOfCubic = 2 * std::numbers::pi * kChanges / 120;
 constexpr std::size_t kSlots = 32;  // rotations that stand for those during a scan
 
 using ChordUpdate = IteratedUpdate<ChordMotion, chord::kDim, 18>;
@@ -37,6 +41,7 @@ void IcpFilter::begin(const ChordMotion& state, const ChordMatrix& covariance) {
 // The velocities change first: then the pose follows with the new ones, so that the scan begins
 // where the one before ended. The bend is a new one, likely towards the change of the velocity.
 void IcpFilter::predict(double dt_s) {
+  dt_s_ = dt_s;
   T_odom_body_0_ = state_.T_odom_body;
   covariance_0_ = covariance_.topLeftCorner<6, 6>();
   state_.acceleration_odom = state_.angular_acceleration_body = Vec3::Zero();
@@ -54,13 +59,16 @@ void IcpFilter::predict(double dt_s) {
   disturb(chord::kVelocity, chord::kBend, unevenness_.acceleration_mps2);
   disturb(chord::kRate, chord::kBendOfTurn, unevenness_.angular_acceleration_radps2);
   P = (F * P * F.transpose()).eval();
-  const double misfit = kMisfit * dt_s * dt_s;
-  P.diagonal().segment<3>(chord::kPosition).array() +=
-      square(misfit * unevenness_.acceleration_mps2);
-  P.diagonal().segment<3>(chord::kRotation).array() +=
-      square(misfit * unevenness_.angular_acceleration_radps2);
   covariance_ = 0.5 * (P + P.transpose());
+  addMisfit(kMisfit * dt_s * dt_s);
   state_ = continued(state_, dt_s);
+}
+
+void IcpFilter::addMisfit(double misfit_s2) {
+  covariance_.diagonal().segment<3>(chord::kPosition).array() +=
+      square(misfit_s2 * unevenness_.acceleration_mps2);
+  covariance_.diagonal().segment<3>(chord::kRotation).array() +=
+      square(misfit_s2 * unevenness_.angular_acceleration_radps2);
 }
 
 bool IcpFilter::isLost() const {
@@ -113,6 +121,7 @@ std::size_t IcpFilter::update(const std::vector<MeasuredPoint>& points, const Ve
   // The best guess, but no more sure than the prediction was.
   if (!update.converged()) return 0;
   covariance_ = update.covariance();
+  addMisfit(kLeftOfCubic * dt_s_ * dt_s_ * dt_s_);
   cross_ = update.updated(cross_);
   return matches_.size();
 }

@@ -61,6 +61,8 @@ class PALOC_EXPORT IcpFilter {
   Mat6 motionCovariance() const;
 
  private:
+  /// Of the pose, in a second squared of the unevenness.
+  void addMisfit(double misfit_s2);
   void placePoints(const std::vector<MeasuredPoint>& points, const Vec3& sensor_body,
                    const ChordMotion& x, double ageing);
 
@@ -69,6 +71,7 @@ class PALOC_EXPORT IcpFilter {
   Unevenness unevenness_;
   ChordMotion state_;
   ChordMatrix covariance_ = ChordMatrix::Zero();
+  double dt_s_ = 0;  // of the last prediction
   // The pose before it, and E[error of the state now . error of that pose].
   Pose T_odom_body_0_;
   Mat6 covariance_0_ = Mat6::Zero();
