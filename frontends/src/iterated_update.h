@@ -48,7 +48,6 @@ class IteratedUpdate {
   bool run(const State& prior, const Matrix& covariance, double lever_m, Matches& matches,
            Derivative toMeasured) {
     state_ = prior;
-    update_.begin(covariance, open_);
     const double deviation = displacementSigma<D>(covariance, lever_m);
     const double gate = std::min(limits_.max_gate_m, 3 * deviation + kLeastGate);
     double widening = std::min(deviation, gate);

@@ -57,7 +57,8 @@ void PointToPlaneSums<N>::addMultiples(const Mat6& of_pose, const PointToPlane& 
 template <int N>
 void InformativePart<N>::addOpen(const Vector& direction) {
   const Vector rest = direction - open_ * (open_.transpose() * direction).eval();
-  if (open_.cols() == N || !(rest.norm() > 1e-3)) return;
+  constexpr double kNew = 1e-3;  // less is the rounding of one that is known as open already
+  if (open_.cols() == N || !(rest.norm() > kNew)) return;
   open_.conservativeResize(Eigen::NoChange, open_.cols() + 1);
   open_.col(open_.cols() - 1) = rest.normalized();
 }

@@ -136,7 +136,9 @@ TEST(InertialSmootherInACorridor, BelievesWhatTheFiltersUpdateBelieves) {
     imu.add({t, Vec3(0, 0, 9.80665), Vec3::Zero()});
   }
   const test::Walls corridor({1, 2});
-  const InertialStart start{.sigma_velocity_mps = 0.3, .sigma_acceleration_mps2 = 0.5};
+  // So sure of the tilt that a step of gravity is small: it is added to a node's, and turns the
+  // filter's, and these part at third order.
+  const InertialStart start{.sigma_velocity_mps = 0.3, .sigma_acceleration_mps2 = 0.3};
   InertialSmoother smoother(2, 9.80665);
   smoother.begin(0, {}, start);
   FeatureRegistration registration({});
@@ -154,10 +156,7 @@ TEST(InertialSmootherInACorridor, BelievesWhatTheFiltersUpdateBelieves) {
         features, scan, Vec3::Zero(), map, smoother.predicted(), smoother.predictedCovariance());
     EXPECT_EQ(measured.open.cols(), 2) << "position and velocity along the corridor";
     smoother.add(i * kScan, measured, Vec9::Zero(), false);
-    const LioVector difference = boxminus(smoother.state(), filter.state());
-    EXPECT_LT(difference.head<lio::kGravity>().norm(), 1e-7) << i;
-    // A node's gravity is a vector, the filter's a direction: they part at second order.
-    EXPECT_LT(difference.tail<2>().norm(), 1e-6) << i;
+    EXPECT_LT(boxminus(smoother.state(), filter.state()).norm(), 1e-7) << i;
     const LioVector scale = filter.covariance().diagonal().cwiseSqrt().cwiseInverse();
     const LioMatrix more = smoother.covariance() - filter.covariance();
     EXPECT_LT((scale.asDiagonal() * more * scale.asDiagonal()).cwiseAbs().maxCoeff(), 1e-4) << i;

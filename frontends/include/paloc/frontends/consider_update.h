@@ -11,9 +11,9 @@ namespace paloc {
 /// that is measured.
 ///
 /// With P the covariance before, Pi the projector on what is across E, T = Pi P Pi, W the
-/// information of a measurement and A = 1 + T W, an error becomes A^-1 e - A^-1 T H^T R^-1 n,
-/// whatever P says across and along E go together by. So the covariance is Joseph's,
-/// A^-1 (P + T W T) A^-T.
+/// information of a measurement H x + n and A = 1 + T W, an error e becomes
+/// A^-1 (e + T H^T R^-1 n), however errors along E go with those across it. So the covariance is
+/// Joseph's, A^-1 (P + T W T) A^-T.
 template <int D>
 class ConsiderUpdate {
  public:
