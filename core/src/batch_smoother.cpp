@@ -94,6 +94,7 @@ BatchSummary smoothBatch(std::vector<ChainNode>& nodes, const SmootherSettings& 
   ChainSolver::JointCovariances covariances = solver.jointCovariances();
   summary.covariances = std::move(covariances.own);
   summary.covariances_with_next = std::move(covariances.with_next);
+  summary.gains = std::move(covariances.gains);
   return summary;
 }
 

@@ -157,10 +157,11 @@ StateMatrix ChainSolver::newestCovariance() const {
 }
 
 // With W = L(k+1,k) L(k,k)^-1: Sigma(k) = (L D L^T)^-1 + W^T Sigma(k+1) W, and of k with k+1
-// -W^T Sigma(k+1), from the end backwards.
+// -W^T Sigma(k+1), from the end backwards; -W^T is the gain.
 template <class Visitor>
 void ChainSolver::Impl::recurseCovariances(std::size_t first, Visitor visit) const {
-  StateMatrix sigma = StateMatrix::Zero(), with_next = StateMatrix::Zero();
+  StateMatrix sigma = StateMatrix::Zero(), with_next = StateMatrix::Zero(),
+              gain = StateMatrix::Zero();
   for (std::size_t k = factor.count(); k-- > first;) {
     const std::size_t place = factor.begin() + k;
     StateMatrix next = factor.inverseOfBlock(place);
@@ -170,17 +171,18 @@ void ChainSolver::Impl::recurseCovariances(std::size_t first, Visitor visit) con
                                 .triangularView<Eigen::UnitUpper>()
                                 .solve(factor.couplingBlock(place).transpose())
                                 .transpose();
-      with_next.noalias() = -w.transpose() * sigma;
+      gain = -w.transpose();
+      with_next.noalias() = gain * sigma;
       next.noalias() -= with_next * w;
     }
     sigma = 0.5 * (next + next.transpose());
-    visit(k, sigma, with_next);
+    visit(k, sigma, with_next, gain);
   }
 }
 
 std::vector<StateMatrix> ChainSolver::covariances(std::size_t first) const {
   std::vector<StateMatrix> result(impl_->factor.count() - first);
-  impl_->recurseCovariances(first, [&](std::size_t k, const StateMatrix& sigma,
+  impl_->recurseCovariances(first, [&](std::size_t k, const StateMatrix& sigma, const StateMatrix&,
                                        const StateMatrix&) { result[k - first] = sigma; });
   return result;
 }
@@ -190,18 +192,23 @@ ChainSolver::JointCovariances ChainSolver::jointCovariances() const {
   JointCovariances result;
   result.own.resize(count);
   result.with_next.resize(count == 0 ? 0 : count - 1);
-  impl_->recurseCovariances(
-      0, [&](std::size_t k, const StateMatrix& sigma, const StateMatrix& with_next) {
-        result.own[k] = sigma;
-        if (k + 1 < count) result.with_next[k] = with_next;
-      });
+  result.gains.resize(result.with_next.size());
+  impl_->recurseCovariances(0, [&](std::size_t k, const StateMatrix& sigma,
+                                   const StateMatrix& with_next, const StateMatrix& gain) {
+    result.own[k] = sigma;
+    if (k + 1 == count) return;
+    result.with_next[k] = with_next;
+    result.gains[k] = gain;
+  });
   return result;
 }
 
 StateMatrix ChainSolver::covariance(std::size_t first) const {
   StateMatrix result = StateMatrix::Zero();
   impl_->recurseCovariances(
-      first, [&](std::size_t, const StateMatrix& sigma, const StateMatrix&) { result = sigma; });
+      first, [&](std::size_t, const StateMatrix& sigma, const StateMatrix&, const StateMatrix&) {
+        result = sigma;
+      });
   return result;
 }
 

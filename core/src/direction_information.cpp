@@ -32,17 +32,31 @@ void scaleDirection(Mat6& information, DirectionKind own, const Vec3& axis, doub
   information.block<3, 3>(at, at) -= ((1 - factor) / along) * x * x.transpose();
 }
 
+namespace {
+
+using Square = Eigen::Matrix<double, 6, 6>;
+using Solver = Eigen::SelfAdjointEigenSolver<Square>;
+
+constexpr double kKnown = 1e-9;  // of the largest eigenvalue
+
+Square projectorOf(const Solver& solver) {
+  const Vec6& eigenvalues = solver.eigenvalues();
+  const Vec6 known = (eigenvalues.array() > kKnown * eigenvalues[5]).cast<double>();
+  return solver.eigenvectors() * known.asDiagonal() * solver.eigenvectors().transpose();
+}
+
+}  // namespace
+
 void cutToKnown(Mat6& information, Mat6& spread) {
-  using Square = Eigen::Matrix<double, 6, 6>;
-  const Eigen::SelfAdjointEigenSolver<Square> solver(information);
+  const Solver solver(information);
   const Vec6 eigenvalues = solver.eigenvalues().cwiseMax(0.0);
+  if (eigenvalues[0] > kKnown * eigenvalues[5]) return;
   const Square& vectors = solver.eigenvectors();
-  const double smallest = 1e-9 * eigenvalues[5];
-  if (eigenvalues[0] > smallest) return;
   information = vectors * eigenvalues.asDiagonal() * vectors.transpose();
-  const Vec6 known = (eigenvalues.array() > smallest).cast<double>();
-  const Square projector = vectors * known.asDiagonal() * vectors.transpose();
+  const Square projector = projectorOf(solver);
   spread = (projector * spread * projector).eval();
 }
+
+Mat6 projectorOntoKnown(const Mat6& information) { return projectorOf(Solver(information)); }
 
 }  // namespace paloc

@@ -5,6 +5,7 @@
 
 #include "paloc/core/batch_smoother.h"
 #include "paloc/core/map_correlation.h"
+#include "paloc/core/surface_errors.h"
 #include "paloc/core/trajectory_point.h"
 
 namespace paloc {
@@ -24,9 +25,11 @@ bool associateAllAnew(const EstimatorSettings& settings, MapMatcher& matcher,
   return any;
 }
 
-// The map factors of all associations, by how many scans share their errors before and after.
-void putMapFactors(const EstimatorSettings& settings, const std::vector<HistoryNode>& history,
-                   std::vector<ChainNode>& nodes) {
+// The map factors of all associations, by how many scans share their errors before and after, which
+// is returned.
+std::vector<double> putMapFactors(const EstimatorSettings& settings,
+                                  const std::vector<HistoryNode>& history,
+                                  std::vector<ChainNode>& nodes) {
   std::vector<Vec3> positions;
   std::vector<bool> has_map_factor;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
@@ -43,6 +46,29 @@ void putMapFactors(const EstimatorSettings& settings, const std::vector<HistoryN
     nodes[k].node_factors.push_back(
         mapFactorOf(history[k].association.match, scans[k], settings.map_robust_width));
   }
+  return scans;
+}
+
+// What the surfaces of the map were taken for in the factors gives way to what they are.
+void considerSurfaces(const std::vector<HistoryNode>& history, const std::vector<ChainNode>& nodes,
+                      const std::vector<double>& scans, BatchSummary& batch) {
+  SurfaceErrors errors(nodes.size());
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    if (!history[k].association.match.accepted()) continue;
+    for (const NodeFactor& factor : nodes[k].node_factors) {
+      if (const auto* map = std::get_if<MapFactor>(&factor)) {
+        const double square = map->linearize(nodes[k].state).residual.squaredNorm();
+        const double root = map->kernel().sqrtWeight(square);
+        errors.add(k, history[k].association.match, scans[k], root * root);
+      }
+    }
+  }
+  ChainSolver::JointCovariances covariances{std::move(batch.covariances),
+                                            std::move(batch.covariances_with_next),
+                                            std::move(batch.gains)};
+  considerConstantErrors(errors.takenAsWhite(), errors.constant(), covariances);
+  batch.covariances = std::move(covariances.own);
+  batch.covariances_with_next = std::move(covariances.with_next);
 }
 
 }  // namespace
@@ -53,7 +79,7 @@ void smoothRecording(const EstimatorSettings& settings, MapMatcher& matcher, Sta
   std::vector<ChainNode> nodes;
   nodes.reserve(history.size());
   for (const HistoryNode& entry : history) nodes.push_back(entry.node);
-  putMapFactors(settings, history, nodes);
+  std::vector<double> scans = putMapFactors(settings, history, nodes);
   BatchSummary batch = smoothBatch(nodes, settings.smoother);
   for (int round = 0; round < settings.max_rematch_rounds; ++round) {
     if (batch.status == BatchSummary::Status::kFailed) return;
@@ -61,10 +87,11 @@ void smoothRecording(const EstimatorSettings& settings, MapMatcher& matcher, Sta
       StageScope rematch(timer, "rematch");
       if (!associateAllAnew(settings, matcher, batch, nodes, history, result.rematched)) break;
     }
-    putMapFactors(settings, history, nodes);
+    scans = putMapFactors(settings, history, nodes);
     batch = smoothBatch(nodes, settings.smoother);
   }
   if (batch.status == BatchSummary::Status::kFailed) return;
+  considerSurfaces(history, nodes, scans, batch);
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const NodeEstimate estimate{k, nodes[k].t_ns, nodes[k].state, batch.covariances[k]};
     result.trajectory.push_back(trajectoryPoint(estimate, history[k].association.match));

@@ -14,6 +14,8 @@
 #include "paloc/map/scan_normals.h"
 #include "paloc/map/scan_thinning.h"
 #include "paloc/map/spectrum.h"
+#include "paloc/map/surface_patches.h"
+#include "paloc/map/surface_register.h"
 #include "parallel_chunks.h"
 #include "registration.h"
 #include "rough_start.h"
@@ -43,7 +45,8 @@ class ScanMatcher::Work {
         settings_(settings),
         arena_(std::max(settings.threads, 1)),
         registration_(*map_, settings_, arena_),
-        finder_(*map_, settings_) {}
+        finder_(*map_, settings_),
+        surfaces_(settings.plane_patch_m) {}
 
   /// All work in one visit to the threads.
   template <typename Body>
@@ -225,8 +228,22 @@ class ScanMatcher::Work {
       const Mat6& spread = handled ? observed.shared_spread : all_shared;
       answer.information = informationInMap(information, local.rotation);
       answer.shared_spread = informationInMap(spread, local.rotation);
+      if (answer.accepted()) addSurfaces(all_shared, local, answer);
     }
     timing_.information_s = secondsSince(start);
+  }
+
+  void addSurfaces(const Mat6& spread, const Pose& local, MapMatch& answer) {
+    auto surfaces = std::make_shared<std::vector<SurfaceGradient>>();
+    for (const SurfacePatch& patch :
+         surfacePatches(registration_.rows(), spread, settings_.plane_bias_m)) {
+      SurfaceGradient& surface = surfaces->emplace_back();
+      surface.surface = surfaces_.surfaceOf(local.rotation * patch.normal, local * patch.point);
+      surface.gradient = patch.gradient;
+      surface.gradient.head<3>() = local.rotation * patch.gradient.head<3>();
+    }
+    answer.surfaces = std::move(surfaces);
+    answer.surface_bias_m = settings_.plane_bias_m;
   }
 
   void addSpectrum(double& spectrum) {
@@ -279,6 +296,7 @@ class ScanMatcher::Work {
   ScanThinning thinning_;
   ScanAveraging averaging_;
   StartFinder finder_;
+  SurfaceRegister surfaces_;
   Timing timing_;
 };
 

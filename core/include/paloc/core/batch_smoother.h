@@ -16,6 +16,7 @@ struct BatchSummary {
   std::vector<StateMatrix> covariances;     ///< of every node, at the solution
   /// Of every node (rows) with the one after it (columns): one less.
   std::vector<StateMatrix> covariances_with_next;
+  std::vector<StateMatrix> gains;  ///< see ChainSolver::JointCovariances
 };
 
 /// Smooths a whole recording at once: Levenberg-Marquardt (Marquardt's scaling) over all nodes,

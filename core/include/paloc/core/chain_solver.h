@@ -49,9 +49,10 @@ class PALOC_EXPORT ChainSolver {
   StateMatrix newestCovariance() const;
   /// Covariances of all blocks from `first` to the end, in order (Takahashi's recursion by blocks).
   std::vector<StateMatrix> covariances(std::size_t first = 0) const;
-  /// Of all blocks, and of each (rows) with the one after it (columns): one less.
+  /// Of all blocks, and of each (rows) with the one after it (columns): one less. `gains` tell how
+  /// a block follows the one after it: P(k, l) = gains[k] P(k+1, l) for every l > k.
   struct JointCovariances {
-    std::vector<StateMatrix> own, with_next;
+    std::vector<StateMatrix> own, with_next, gains;
   };
   JointCovariances jointCovariances() const;
   /// Covariance of block `first` alone, by the same recursion.

@@ -28,4 +28,7 @@ PALOC_EXPORT void scaleDirection(Mat6& information, DirectionKind own, const Vec
 /// `spread` (shared_errors.h) must not reach into what is not known.
 PALOC_EXPORT void cutToKnown(Mat6& information, Mat6& spread);
 
+/// The projector onto what the information knows, as cutToKnown() tells it.
+PALOC_EXPORT Mat6 projectorOntoKnown(const Mat6& information);
+
 }  // namespace paloc

@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "paloc/core/export.h"
 #include "paloc/core/scan.h"
@@ -51,6 +52,14 @@ enum class MatchRefusal {
 /// One or two words for tables ("low overlap").
 PALOC_EXPORT std::string toString(MatchRefusal refusal);
 
+/// What a surface of the map does to a scan that lies on it, should the surface be shifted.
+struct SurfaceGradient {
+  int surface = 0;  ///< its number: the same in all matches of one matcher
+  /// Y = sum J/D over the scan's points on it: by so much a shift of 1 m along the normal changes
+  /// the gradient of the match (shared_errors.h; the information's units times m).
+  Vec6 gradient = Vec6::Zero();
+};
+
 /// The answer of a prior map to a scan.
 struct MapMatch {
   MatchRefusal refusal = MatchRefusal::kNotConverged;
@@ -62,6 +71,10 @@ struct MapMatch {
   /// What the errors that points share add to the covariance of the gradient (shared_errors.h), in
   /// the units of the information, and zero where that is.
   Mat6 shared_spread = Mat6::Zero();
+  /// The surfaces that matter, and the standard deviation (m) of the shift of each, which is the
+  /// same in every scan that lies on it; it is in `shared_spread`, too. Null if there are none.
+  std::shared_ptr<const std::vector<SurfaceGradient>> surfaces;
+  double surface_bias_m = 0;
   std::array<MatchDirection, 6> directions;  ///< 0..2 position, 3..5 rotation
 
   /// How much the scan's own surfaces disagree with the map's on what is fixed (D_e, without unit,

@@ -23,4 +23,9 @@ namespace paloc {
 /// does not know stays unknown.
 PALOC_EXPORT Mat6 informationUnderSharedErrors(const Mat6& independent, const Mat6& spread);
 
+/// Z = H (H + G S G^T)^-1, of which the information above is Z H: an error that changes the
+/// gradient of the estimate by g changes that of a factor with this information by Z g. What H does
+/// not know must not be in g.
+PALOC_EXPORT Mat6 gainUnderSharedErrors(const Mat6& independent, const Mat6& spread);
+
 }  // namespace paloc

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "paloc/core/export.h"
+#include "paloc/map/map_information.h"
+
+namespace paloc {
+
+/// A patch of the map's surface that a scan lies on, in the body frame.
+struct SurfacePatch {
+  Vec6 gradient = Vec6::Zero();  ///< Y of sharedSpread(), tangent of PlaneRow
+  Vec3 normal = Vec3::Zero();    ///< unit, of its points' mean
+  Vec3 point = Vec3::Zero();     ///< their centroid (m)
+};
+
+/// The patches (assignPatches()) whose shift, of standard deviation `plane_bias_m`, matters to the
+/// pose: in units of its covariance, of which each patch has the part S Y^T (H + G S G^T)^-1 Y of
+/// six, at least a thousandth. `spread` is sharedSpread().
+PALOC_EXPORT std::vector<SurfacePatch> surfacePatches(std::span<const PlaneRow> rows,
+                                                      const Mat6& spread, double plane_bias_m);
+
+}  // namespace paloc
