@@ -205,10 +205,8 @@ ChainSolver::JointCovariances ChainSolver::jointCovariances() const {
 
 StateMatrix ChainSolver::covariance(std::size_t first) const {
   StateMatrix result = StateMatrix::Zero();
-  impl_->recurseCovariances(
-      first, [&](std::size_t, const StateMatrix& sigma, const StateMatrix&, const StateMatrix&) {
-        result = sigma;
-      });
+  impl_->recurseCovariances(first, [&](std::size_t, const StateMatrix& sigma, const StateMatrix&,
+                                       const StateMatrix&) { result = sigma; });
   return result;
 }
 

@@ -63,9 +63,8 @@ void considerSurfaces(const std::vector<HistoryNode>& history, const std::vector
       }
     }
   }
-  ChainSolver::JointCovariances covariances{std::move(batch.covariances),
-                                            std::move(batch.covariances_with_next),
-                                            std::move(batch.gains)};
+  ChainSolver::JointCovariances covariances{
+      std::move(batch.covariances), std::move(batch.covariances_with_next), std::move(batch.gains)};
   considerConstantErrors(errors.takenAsWhite(), errors.constant(), covariances);
   batch.covariances = std::move(covariances.own);
   batch.covariances_with_next = std::move(covariances.with_next);

@@ -12,7 +12,7 @@ constexpr double kReach_m = 10;
 TEST(SurfaceRegister, AWallIsOneSurfaceHoweverLongItIs) {
   SurfaceRegister surfaces(kReach_m);
   for (int k = 0; k < 100; ++k) {
-    const Vec3 wobble(0.02 * (k % 3), 0.03 * (k % 2), 1);
+    const Vec3 wobble(0.004 * (k % 3), 0.006 * (k % 2), 1);
     const double along = -300 + 8 * k;
     EXPECT_EQ(surfaces.surfaceOf(wobble.normalized(), Vec3(along, 2, 0.02 * (k % 4))), 0) << k;
   }

@@ -87,6 +87,7 @@ BenchCovarianceResult benchCovariance(const BenchCovarianceSettings& settings, C
   config.map.side_file = false;
   config.matcher.plane_bias_m = settings.map_bias_m;
   config.matcher.range_bias_m = 0;  // the simulated sensors have none
+  if (!settings.configured_imu) config.estimator.imu = synth::SynthSettings().imu.noise;
   const std::size_t runs = settings.places.size() * settings.seeds;
   std::size_t done = 0;
   BenchCovarianceResult result;

@@ -17,7 +17,7 @@ constexpr const char* kExample = R"(Example:
 
 Each seed is a recording and a map of its own, simulated, replayed and compared with the truth:
 NEES per degree of freedom is 1 where covariances are right. The bias of the map's surfaces is
-also what is configured (matcher.plane_bias_m). A place is a scene of paloc synth, after a + with
+also what is configured (matcher.plane_bias_m), and so is the noise of the IMU (imu.*). A place is a scene of paloc synth, after a + with
 what is changed there since the survey.
 Exit codes: 0 done, 1 a seed gave no trajectory or an unusable covariance, 2 wrong usage.)";
 
@@ -39,6 +39,8 @@ class BenchCovarianceCommand : public Command {
                      "shift of whole surfaces in the map (m, one sigma)")
         ->check(CLI::Range(0.0, 0.1))
         ->capture_default_str();
+    app_->add_flag("--configured-imu", settings_.configured_imu,
+                   "the IMU's noise from the settings, not that of the simulated IMU");
     app_->add_flag("--json", json_, "one JSON object on standard output (m, rad)");
     config_.registerOn(*app_);
     app_->footer(kExample);

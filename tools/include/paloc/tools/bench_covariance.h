@@ -19,7 +19,8 @@ struct BenchCovarianceSettings {
   unsigned seeds = 50;
   std::uint64_t first_seed = 1;
   double duration_s = 40;
-  double map_bias_m = 0.005;  ///< of whole surfaces, one sigma; configured as plane_bias_m
+  double map_bias_m = 0.005;    ///< of whole surfaces, one sigma; configured as plane_bias_m
+  bool configured_imu = false;  ///< the IMU's noise is the configuration's, not the simulated one
 };
 
 /// Of one place, all seeds together.
@@ -35,9 +36,9 @@ struct BenchCovarianceResult {
   std::vector<std::pair<std::string, PlaceCovariance>> places;
 };
 
-/// Simulates a recording and a map for each seed, with the bias that is configured, replays it, and
-/// compares errors with covariances over whole trajectories. In a temporary folder. `progress` is
-/// called with the share done.
+/// Simulates a recording and a map for each seed, replays it with the simulated bias and IMU noise
+/// as settings, and compares errors with covariances over whole trajectories. In a temporary
+/// folder. `progress` is called with the share done.
 BenchCovarianceResult benchCovariance(const BenchCovarianceSettings& settings, Config config,
                                       const std::function<void(double)>& progress);
 
