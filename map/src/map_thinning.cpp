@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "paloc/core/errors.h"
+#include "paloc/map/hilbert_curve.h"
 #include "parallel_chunks.h"
 #include "radix_sort.h"
 #include "voxel_key.h"
@@ -53,6 +54,7 @@ RawArray<KeyedIndex> sortedKeys(const PointCloud& cloud, double edge, const Grid
                                 tbb::task_arena& arena) {
   RawArray<KeyedIndex> keyed(cloud.size());
   std::vector<std::uint64_t> largest(chunkCount(cloud.size(), kChunk));
+  const HilbertCurve curve;
   const double inverse = 1 / edge;
   const auto number = [inverse](float value, double from) {
     return static_cast<std::uint32_t>(std::max(static_cast<double>(value) - from, 0.0) * inverse);
@@ -62,7 +64,7 @@ RawArray<KeyedIndex> sortedKeys(const PointCloud& cloud, double edge, const Grid
         for (std::size_t i = begin; i < end; ++i) {
           const Point3f& p = cloud.points[i];
           keyed[i] = {
-              hilbertKey(number(p.x, grid.x), number(p.y, grid.y), number(p.z, grid.z), grid.bits),
+              curve.place(number(p.x, grid.x), number(p.y, grid.y), number(p.z, grid.z), grid.bits),
               static_cast<std::uint32_t>(i)};
           largest[chunk] = std::max(largest[chunk], keyed[i].key);
         }

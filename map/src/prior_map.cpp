@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <optional>
 
@@ -14,28 +13,18 @@
 #include "paloc/core/errors.h"
 #include "paloc/core/text.h"
 #include "paloc/map/cloud_io.h"
-#include "parallel_chunks.h"
 #include "plane_fitter.h"
 #include "plane_store.h"
 #include "point_index.h"
 #include "point_vector.h"
 #include "prefetch.h"
+#include "stopwatch.h"
 
 namespace paloc {
 namespace {
 
 constexpr std::size_t kMinPoints = 100;
 constexpr std::size_t kMinPlanes = 20;
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 }  // namespace
 
