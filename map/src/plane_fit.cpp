@@ -58,7 +58,7 @@ MomentSums sumsWithin(const NearPoints& points, float radius_sq) {
 bool PlaneFit::findConsensus(const NearPoints& points, float near_sq, Vec3f& normal) const {
   // Evenly among all: those that follow each other lie side by side.
   std::array<Vec3f, kTriedPoints> tried;
-  std::array<float, kTriedPoints> tried_sq;
+  std::array<float, kTriedPoints> tried_sq{};
   std::size_t count = 0;
   const std::size_t step = std::max<std::size_t>(points.size() / (2 * kTriedPoints), 1);
   for (std::size_t first = 0; first < step && count < kTriedPoints; ++first) {

@@ -55,6 +55,8 @@ struct RegionSums {
   std::int32_t within;  // within its radius, whatever the height
   float first[3];       // x, y, z
   float second[6];      // xx, xy, xz, yy, yz, zz
+
+  bool operator==(const RegionSums&) const = default;
 };
 
 /// Which of many points is the nearest, and the square of its distance (m2).
