@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "paloc/core/types.h"
-#include "point_block.h"
+#include "paloc/map/point_block.h"
 #include "prefetch.h"
 #include "raw_array.h"
 #include "voxel_key.h"

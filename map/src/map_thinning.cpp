@@ -4,10 +4,12 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <sstream>
 #include <vector>
 
 #include "paloc/core/errors.h"
+#include "paloc/map/hilbert_curve.h"
 #include "parallel_chunks.h"
 #include "radix_sort.h"
 #include "voxel_key.h"
@@ -52,6 +54,7 @@ RawArray<KeyedIndex> sortedKeys(const PointCloud& cloud, double edge, const Grid
                                 tbb::task_arena& arena) {
   RawArray<KeyedIndex> keyed(cloud.size());
   std::vector<std::uint64_t> largest(chunkCount(cloud.size(), kChunk));
+  const HilbertCurve curve;
   const double inverse = 1 / edge;
   const auto number = [inverse](float value, double from) {
     return static_cast<std::uint32_t>(std::max(static_cast<double>(value) - from, 0.0) * inverse);
@@ -61,7 +64,7 @@ RawArray<KeyedIndex> sortedKeys(const PointCloud& cloud, double edge, const Grid
         for (std::size_t i = begin; i < end; ++i) {
           const Point3f& p = cloud.points[i];
           keyed[i] = {
-              hilbertKey(number(p.x, grid.x), number(p.y, grid.y), number(p.z, grid.z), grid.bits),
+              curve.place(number(p.x, grid.x), number(p.y, grid.y), number(p.z, grid.z), grid.bits),
               static_cast<std::uint32_t>(i)};
           largest[chunk] = std::max(largest[chunk], keyed[i].key);
         }
@@ -90,43 +93,71 @@ class Mean {
   std::size_t count_ = 0;
 };
 
-// The means of the runs of one key that begin in [begin, end).
-std::vector<Point3f> meansOfRuns(const PointCloud& cloud, const RawArray<KeyedIndex>& keyed,
-                                 bool merge, std::size_t begin, std::size_t end) {
-  std::vector<Point3f> means;
-  means.reserve(end - begin);
-  std::size_t at = begin;
-  while (merge && at > 0 && at < end && keyed[at].key == keyed[at - 1].key) ++at;
-  while (at < end) {
-    const std::uint64_t key = keyed[at].key;
-    Mean mean;
-    do {
-      mean.add(cloud.points[keyed[at++].index]);
-    } while (merge && at < keyed.size() && keyed[at].key == key);
-    means.push_back(mean.value());
+/// Items in the order of their keys, of which those of one key become one point, or each does.
+class Runs {
+ public:
+  Runs(const RawArray<KeyedIndex>& keyed, bool merge) : keyed_(keyed), merge_(merge) {}
+
+  bool begins(std::size_t at) const {
+    return !merge_ || at == 0 || keyed_[at].key != keyed_[at - 1].key;
   }
-  return means;
+  std::size_t countBegun(std::size_t begin, std::size_t end) const {
+    std::size_t count = 0;
+    for (std::size_t at = begin; at < end; ++at) count += begins(at) ? 1 : 0;
+    return count;
+  }
+  /// Calls put(mean) for each run that begins in [begin, end).
+  template <typename Put>
+  void forEachMean(const PointCloud& cloud, std::size_t begin, std::size_t end,
+                   const Put& put) const {
+    std::size_t at = begin;
+    while (at < end && !begins(at)) ++at;
+    while (at < end) {
+      Mean mean;
+      do {
+        mean.add(cloud.points[keyed_[at++].index]);
+      } while (at < keyed_.size() && !begins(at));
+      put(mean.value());
+    }
+  }
+
+ private:
+  const RawArray<KeyedIndex>& keyed_;
+  bool merge_;
+};
+
+void put(const Point3f& point, std::size_t i, RawArray<PointBlock>& blocks) {
+  PointBlock& block = blocks[i / PointBlock::kPoints];
+  const std::size_t lane = i % PointBlock::kPoints;
+  block.x[lane] = point.x, block.y[lane] = point.y, block.z[lane] = point.z;
 }
 
 }  // namespace
 
 double curveVoxel(double voxel_m) { return voxel_m > 0 ? voxel_m : kOrderVoxelM; }
 
-RawArray<Point3f> thinAlongCurve(const PointCloud& cloud, double voxel_m, tbb::task_arena& arena,
-                                 const std::string& name) {
+BlockedPoints thinAlongCurve(const PointCloud& cloud, double voxel_m, tbb::task_arena& arena,
+                             const std::string& name) {
   const double edge = curveVoxel(voxel_m);
   const RawArray<KeyedIndex> keyed = sortedKeys(cloud, edge, gridAbout(cloud, edge, name), arena);
-  std::vector<std::vector<Point3f>> parts(chunkCount(keyed.size(), kChunk));
+  const Runs runs(keyed, voxel_m > 0);
+  std::vector<std::size_t> starts(chunkCount(keyed.size(), kChunk) + 1);
   forEachChunk(arena, keyed.size(), kChunk,
                [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-                 parts[chunk] = meansOfRuns(cloud, keyed, voxel_m > 0, begin, end);
+                 starts[chunk + 1] = runs.countBegun(begin, end);
                });
-  std::vector<std::size_t> starts{0};
-  for (const auto& part : parts) starts.push_back(starts.back() + part.size());
-  RawArray<Point3f> kept(starts.back());
-  forEachChunk(arena, parts.size(), 1, [&](std::size_t part, std::size_t, std::size_t) {
-    std::copy(parts[part].begin(), parts[part].end(), kept.begin() + starts[part]);
-  });
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
+  BlockedPoints kept;
+  kept.count = starts.back();
+  kept.blocks = RawArray<PointBlock>(chunkCount(kept.count, PointBlock::kPoints));
+  forEachChunk(arena, keyed.size(), kChunk,
+               [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+                 std::size_t at = starts[chunk];
+                 runs.forEachMean(cloud, begin, end,
+                                  [&](const Point3f& mean) { put(mean, at++, kept.blocks); });
+               });
+  constexpr Point3f kMissing{PointBlock::kMissing, PointBlock::kMissing, PointBlock::kMissing};
+  for (std::size_t i = kept.count; i % PointBlock::kPoints != 0; ++i) put(kMissing, i, kept.blocks);
   return kept;
 }
 

@@ -3,48 +3,45 @@
 #include <algorithm>
 #include <limits>
 
+#include "point_vector.h"
+
 namespace paloc {
 namespace {
 
 constexpr int kMaxGuesses = 8;
-
-Float4 normSq(const Float4& x, const Float4& y, const Float4& z) { return x * x + y * y + z * z; }
+constexpr float kRoundedDown = 1 - 1e-5F;
 
 }  // namespace
 
-void Neighbourhood::gather(const Point3f& centre, float reach_m) {
-  points_.clear();
-  const float reach_sq = reach_m * reach_m;
-  index_.visitNear(centre, reach_sq, [&](const PointBlock& block) {
-    for (std::size_t at = 0; at < PointBlock::kPoints; at += 4) {
-      const Float4 x = load4(block.x + at) - centre.x, y = load4(block.y + at) - centre.y,
-                   z = load4(block.z + at) - centre.z;
-      const unsigned bits = bitsOf(normSq(x, y, z) < reach_sq);
-      if (bits != 0) points_.add(x, y, z, bits);
-    }
-  });
-  points_.close();
+void Neighbourhood::prepare(const Point3f& place, float reach_m) {
+  prepared_ = place;
+  prepared_m_ = reach_m;
+  if (reach_m > 0) index_.groupsNear(place, reach_m * reach_m, groups_);
 }
 
-std::size_t Neighbourhood::countWithin(float radius_sq) const {
-  Mask4 count{};
-  for (std::size_t at = 0; at < points_.size(); at += 4) {
-    count -= load4(distances_sq_.data() + at) <= radius_sq;  // a lane that holds is -1
+void Neighbourhood::gather(const Point3f& centre, float reach_m) {
+  const float reach_sq = reach_m * reach_m;
+  const float aside_m = (toVec3f(centre) - toVec3f(prepared_)).norm();
+  if (aside_m + reach_m < kRoundedDown * prepared_m_) {
+    index_.blocksNear(groups_, centre, reach_sq, blocks_);
+  } else {
+    index_.blocksNear(centre, reach_sq, blocks_);
   }
-  const int sum = count[0] + count[1] + count[2] + count[3];
-  return static_cast<std::size_t>(sum);
+  points_.fill(blocks_.count * PointBlock::kPoints, [&](const PackedColumns& columns) {
+    return kernels_.gather(index_.allBlocks(), blocks_.found(), {centre.x, centre.y, centre.z},
+                           reach_sq, columns);
+  });
 }
 
 // On a surface the number of points grows with the square of the radius.
 float Neighbourhood::radiusSqOf(std::size_t count, const Eigen::Vector3f& from, float within_sq,
                                 float about_sq) {
-  distances_sq_.resize(points_.size() + 4);
-  std::size_t at = 0;
-  points_.forEach4([&](Float4 x, Float4 y, Float4 z) {
-    x -= from.x(), y -= from.y(), z -= from.z();
-    store4(distances_sq_.data() + at, normSq(x, y, z));
-    at += 4;
-  });
+  distances_sq_.resize(points_.size() + PointBlock::kPoints);
+  kernels_.distancesSq(points_.columns(), toPlace(from), distances_sq_.data());
+  const auto countWithin = [this](float radius_sq) {
+    return static_cast<std::size_t>(
+        kernels_.countUpTo(distances_sq_.data(), points_.size(), radius_sq));
+  };
   if (countWithin(within_sq) < count) return std::numeric_limits<float>::infinity();
   const std::size_t most = count + count / 8;
   float radius_sq = std::min(about_sq, within_sq);
@@ -61,36 +58,19 @@ float Neighbourhood::radiusSqOf(std::size_t count, const Eigen::Vector3f& from, 
   return *last;
 }
 
-MomentSums Neighbourhood::sumsWithin(const Eigen::Vector3f& from, float radius_sq) const {
-  return points_.sumsWhere(from, [radius_sq](const Float4& x, const Float4& y, const Float4& z) {
-    return normSq(x, y, z) <= radius_sq;
-  });
-}
-
 Neighbourhood::Face Neighbourhood::faceWithin(const Eigen::Vector3f& from, float radius_sq,
                                               const Eigen::Vector3f& normal, float height_m,
                                               float within_m) const {
-  Mask4 count{};
-  const float within_sq = within_m * within_m;
-  Face face;
-  face.sums = points_.sumsWhere(from, [&](const Float4& x, const Float4& y, const Float4& z) {
-    const Mask4 near = normSq(x, y, z) <= radius_sq;
-    count -= near;  // a lane that holds is -1
-    const Float4 off = x * normal.x() + y * normal.y() + z * normal.z() - height_m;
-    return near & (off * off <= within_sq);
-  });
-  face.count = count[0] + count[1] + count[2] + count[3];
-  return face;
+  const RegionSums sums = kernels_.sumsIn(
+      points_.columns(),
+      {toPlace(from), radius_sq, toPlace(normal), height_m - within_m, height_m + within_m});
+  return {toMomentSums(sums), sums.within};
 }
 
 const NearPoints& Neighbourhood::pointsWithin(const Eigen::Vector3f& from, float radius_sq) {
-  selected_.clear();
-  points_.forEach4([&](Float4 x, Float4 y, Float4 z) {
-    x -= from.x(), y -= from.y(), z -= from.z();
-    const unsigned bits = bitsOf(normSq(x, y, z) <= radius_sq);
-    if (bits != 0) selected_.add(x, y, z, bits);
+  selected_.fill(points_.size(), [&](const PackedColumns& columns) {
+    return kernels_.select(points_.columns(), toPlace(from), radius_sq, columns);
   });
-  selected_.close();
   return selected_;
 }
 

@@ -13,6 +13,9 @@ class Neighbourhood {
  public:
   explicit Neighbourhood(const PointIndex& index) : index_(index) {}
 
+  /// Makes it quicker to gather what lies within `reach_m` of a place, until the next call; 0:
+  /// nothing.
+  void prepare(const Point3f& place, float reach_m);
   /// Gathers all points nearer to `centre` than `reach_m`.
   void gather(const Point3f& centre, float reach_m);
   std::size_t size() const { return points_.size(); }
@@ -21,9 +24,6 @@ class Neighbourhood {
   /// itself) and few more, at most `within_sq`; infinite if that holds fewer. `about_sq`: near to
   /// what is expected.
   float radiusSqOf(std::size_t count, const Eigen::Vector3f& from, float within_sq, float about_sq);
-
-  /// Moments, about `from`, of the points nearer to it than that.
-  MomentSums sumsWithin(const Eigen::Vector3f& from, float radius_sq) const;
 
   struct Face {
     MomentSums sums;  // of the points on it, about the place
@@ -34,13 +34,15 @@ class Neighbourhood {
   Face faceWithin(const Eigen::Vector3f& from, float radius_sq, const Eigen::Vector3f& normal,
                   float height_m, float within_m) const;
 
-  /// These points themselves, relative to `from`.
+  /// The points nearer to `from` than that, relative to it.
   const NearPoints& pointsWithin(const Eigen::Vector3f& from, float radius_sq);
 
  private:
-  std::size_t countWithin(float radius_sq) const;
-
   const PointIndex& index_;
+  const PointKernels& kernels_ = pointKernels();
+  PointIndex::NearBlocks blocks_, groups_;
+  Point3f prepared_{};  // groups_ has all groups within prepared_m_ of it
+  float prepared_m_ = 0;
   NearPoints points_, selected_;
   std::vector<float> distances_sq_;
 };

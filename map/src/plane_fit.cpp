@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "lanes4.h"
+
 namespace paloc {
 namespace {
 
@@ -18,20 +20,6 @@ constexpr double kSureShare = 0.7, kFaceClean = 2.25;
 constexpr std::size_t kTriedPoints = 6;
 constexpr float kTriedSine = 0.3F;
 constexpr std::size_t kFew = 64;  // numbers, up to which to count is quicker than to sort
-
-Float4 heightOver(const Vec3f& normal, const Float4& x, const Float4& y, const Float4& z) {
-  return x * normal.x() + y * normal.y() + z * normal.z();
-}
-
-int countNear(const NearPoints& points, const Vec3f& normal, float within_m) {
-  const float within_sq = within_m * within_m;
-  Mask4 count{};
-  points.forEach4([&](const Float4& x, const Float4& y, const Float4& z) {
-    const Float4 height = heightOver(normal, x, y, z);
-    count -= height * height < within_sq;  // a lane that holds is -1
-  });
-  return count[0] + count[1] + count[2] + count[3];
-}
 
 // Sorts a few numbers, of which there is room for four more: each goes to the place that the
 // smaller ones leave to it, counted four at once and without a branch that cannot be foreseen.
@@ -51,12 +39,16 @@ void sortFew(std::vector<float>& values, std::size_t count, std::vector<float>& 
   }
 }
 
+constexpr float kAnyRadius = std::numeric_limits<float>::infinity();
+
 // Moments of the points whose height over the plane through the origin lies in [low, high].
 PlaneMoments momentsBetween(const NearPoints& points, const Vec3f& normal, float low, float high) {
-  return PlaneMoments(points.sumsWhere([&](const Float4& x, const Float4& y, const Float4& z) {
-    const Float4 height = heightOver(normal, x, y, z);
-    return (height >= low) & (height <= high);
-  }));
+  return PlaneMoments(toMomentSums(pointKernels().sumsIn(
+      points.columns(), {{0, 0, 0}, kAnyRadius, toPlace(normal), low, high})));
+}
+
+MomentSums sumsWithin(const NearPoints& points, float radius_sq) {
+  return toMomentSums(pointKernels().sumsWithin(points.columns(), {0, 0, 0}, radius_sq));
 }
 
 }  // namespace
@@ -64,10 +56,17 @@ PlaneMoments momentsBetween(const NearPoints& points, const Vec3f& normal, float
 // The plane through the origin and two of the nearer points that the most points lie on, if these
 // are a good part of all: one face of an edge, a corner or a thin wall.
 bool PlaneFit::findConsensus(const NearPoints& points, float near_sq, Vec3f& normal) const {
+  // Evenly among all: those that follow each other lie side by side.
   std::array<Vec3f, kTriedPoints> tried;
+  std::array<float, kTriedPoints> tried_sq{};
   std::size_t count = 0;
-  for (std::size_t i = 0; i < points.size() && count < kTriedPoints; ++i) {
-    if (points[i].squaredNorm() <= near_sq) tried[count++] = points[i];
+  const std::size_t step = std::max<std::size_t>(points.size() / (2 * kTriedPoints), 1);
+  for (std::size_t first = 0; first < step && count < kTriedPoints; ++first) {
+    for (std::size_t i = first; i < points.size() && count < kTriedPoints; i += step) {
+      const Vec3f point = points[i];
+      const float apart_sq = point.squaredNorm();
+      if (apart_sq <= near_sq) tried_sq[count] = apart_sq, tried[count++] = point;
+    }
   }
   const auto within = static_cast<float>(kFaceWithin * limits_.clean_thickness_m);
   const auto share = [&](double of) {
@@ -80,17 +79,17 @@ bool PlaneFit::findConsensus(const NearPoints& points, float near_sq, Vec3f& nor
     for (std::size_t k = i + 1; k < count; ++k) {
       const Vec3f cross = tried[i].cross(tried[k]);
       const float cross_sq = cross.squaredNorm();
-      if (cross_sq < kTriedSine * kTriedSine * tried[i].squaredNorm() * tried[k].squaredNorm() ||
-          cross_sq == 0) {
-        continue;
-      }
-      const Vec3f candidate = cross / std::sqrt(cross_sq);
-      const int near = countNear(points, candidate, within);
-      if (near > most) most = near, normal = candidate;
-      if (most >= sure) return true;
+      if (cross_sq <= kTriedSine * kTriedSine * tried_sq[i] * tried_sq[k]) continue;
+      const int near = pointKernels().countNearPlane(points.columns(), toPlace(cross),
+                                                     within * within * cross_sq);
+      if (near > most) most = near, normal = cross;
+      if (most >= sure) break;
     }
+    if (most >= sure) break;
   }
-  return most >= needed;
+  if (most < needed) return false;
+  normal.normalize();
+  return true;
 }
 
 // Moments of the points near to that plane, twice, each time nearer to what was found.
@@ -109,12 +108,8 @@ PlaneMoments PlaneFit::momentsOnFace(const NearPoints& points, const Vec3f& norm
 // point; then, what lies within three robust standard deviations of that side's median.
 PlaneFit::Band PlaneFit::ownFace(const NearPoints& points, const PlaneMoments& m) {
   const Vec3f normal = m.normal.cast<float>();
-  heights_.resize(points.size() + 4);
-  std::size_t at = 0;
-  points.forEach4([&](const Float4& x, const Float4& y, const Float4& z) {
-    store4(heights_.data() + at, heightOver(normal, x, y, z));
-    at += 4;
-  });
+  heights_.resize(points.size() + PointBlock::kPoints);
+  pointKernels().heights(points.columns(), toPlace(normal), heights_.data());
   if (points.size() <= kFew) {
     sortFew(heights_, points.size(), sorted_);
     heights_.swap(sorted_);
@@ -145,28 +140,21 @@ PlaneFit::Band PlaneFit::ownFace(const NearPoints& points, const PlaneMoments& m
 }
 
 MapPlane PlaneFit::operator()(const NearPoints& points, float radius_sq) {
-  const auto within = [radius_sq](const Float4& x, const Float4& y, const Float4& z) {
-    return x * x + y * y + z * z <= radius_sq;  // not what fills the last lanes
-  };
-  return (*this)(points, radius_sq, PlaneMoments(points.sumsWhere(within)));
-}
-
-MapPlane PlaneFit::operator()(const NearPoints& points, float radius_sq, const PlaneMoments& all) {
-  if (all.count < limits_.min_points || clean(all.variances[0], 1)) return planeOf(all, limits_);
+  const MomentSums all = sumsWithin(points, radius_sq);
+  if (all.count < limits_.min_points || !thickerThan(cleanVariance(), all)) {
+    return planeOf(PlaneMoments(all), limits_);
+  }
   const float near_sq = radius_sq / 2;  // of a surface, half of the points
   Vec3f normal = Vec3f::Zero();
   if (findConsensus(points, near_sq, normal)) {
     const PlaneMoments face = momentsOnFace(points, normal);
     const MapPlane plane = planeOf(face, limits_);
-    if (plane.planar() && clean(face.variances[0], kFaceClean)) return plane;
+    if (plane.planar() && face.variances[0] <= kFaceClean * cleanVariance()) return plane;
   }
   // Two faces as far apart as the neighbourhood is wide make the normal of all its points turn:
   // then the nearer half, which is mostly the point's own face, shows it better.
-  PlaneMoments m = all;
-  const PlaneMoments nearer(
-      points.sumsWhere([&](const Float4& x, const Float4& y, const Float4& z) {
-        return x * x + y * y + z * z <= near_sq;
-      }));
+  PlaneMoments m(all);
+  const PlaneMoments nearer(sumsWithin(points, near_sq));
   if (nearer.count >= 3 &&
       nearer.variances[0] * m.variances[1] < m.variances[0] * nearer.variances[1]) {
     m = nearer;

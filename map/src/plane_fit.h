@@ -23,17 +23,13 @@ class PlaneFit {
 
   /// None of the points is further off than the radius.
   MapPlane operator()(const NearPoints& points, float radius_sq);
-  /// The same where the moments of all points are known already.
-  MapPlane operator()(const NearPoints& points, float radius_sq, const PlaneMoments& all);
 
  private:
   struct Band {
     float low, high;
   };
 
-  bool clean(double variance, double in_clean) const {
-    return variance <= in_clean * limits_.clean_thickness_m * limits_.clean_thickness_m;
-  }
+  double cleanVariance() const { return limits_.clean_thickness_m * limits_.clean_thickness_m; }
   bool findConsensus(const NearPoints& points, float near_sq, Eigen::Vector3f& normal) const;
   PlaneMoments momentsOnFace(const NearPoints& points, const Eigen::Vector3f& normal) const;
   Band ownFace(const NearPoints& points, const PlaneMoments& m);

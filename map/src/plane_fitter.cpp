@@ -28,6 +28,8 @@ constexpr float kKnownOffset = 2.5F;
 // The next neighbourhood is gathered within the last one's radius and this much more, so that once
 // is mostly enough.
 constexpr float kRadiusMargin = 1.1F;
+// What is prepared for a group of blocks, so that it mostly holds what they gather.
+constexpr float kGroupMargin = 1.3F;
 
 using Vec3f = Eigen::Vector3f;
 
@@ -43,6 +45,8 @@ class BlockFitter {
         clean_m_(static_cast<float>(limits_.clean_thickness_m)),
         max_radius_m_(static_cast<float>(settings.plane_max_radius_m)) {}
 
+  /// To be called before the first block of each group.
+  void beginGroup(std::size_t block);
   void fit(std::size_t block, PackedPlane* planes);
 
  private:
@@ -109,12 +113,7 @@ bool BlockFitter::fitOnKnownFace(std::size_t point, float radius_sq) {
 }
 
 MapPlane BlockFitter::planeAt(std::size_t point, float radius_sq) {
-  const Vec3f& from = points_[point];
-  const PlaneMoments all(neighbourhood_.sumsWithin(from, radius_sq));
-  if (all.variances[0] <= limits_.clean_thickness_m * limits_.clean_thickness_m) {
-    return planeOf(all, limits_);
-  }
-  return fit_(neighbourhood_.pointsWithin(from, radius_sq), radius_sq, all);
+  return fit_(neighbourhood_.pointsWithin(points_[point], radius_sq), radius_sq);
 }
 
 // The planes of the points (relative to the centre, none further from it than the half width).
@@ -156,6 +155,16 @@ void BlockFitter::share(std::size_t from, float radius_sq,
   }
 }
 
+// The blocks of a group have most of their surroundings in common.
+void BlockFitter::beginGroup(std::size_t block) {
+  const PointIndex::Box box = index_.boxOfGroup(block);
+  const Vec3f centre = (box.low + box.high) / 2;
+  const float half_width = (box.high - box.low).norm() / 2;
+  const bool compact = half_width <= max_radius_m_ && last_radius_m_ > 0;
+  neighbourhood_.prepare({centre.x(), centre.y(), centre.z()},
+                         compact ? half_width + kGroupMargin * last_radius_m_ : 0);
+}
+
 void BlockFitter::fit(std::size_t block, PackedPlane* planes) {
   const std::size_t first = block * PointBlock::kPoints;
   count_ = std::min(PointBlock::kPoints, index_.size() - first);
@@ -192,6 +201,7 @@ PlaneStore fitPlanes(const PointIndex& index, const MapSettings& settings, tbb::
   forEachChunk(arena, index.blocks(), kChunk, [&](std::size_t, std::size_t begin, std::size_t end) {
     BlockFitter fitter(index, settings);
     for (std::size_t block = begin; block < end; ++block) {
+      if (block % BoxGroup::kBoxes == 0) fitter.beginGroup(block);
       fitter.fit(block, planes.data() + block * PointBlock::kPoints);
     }
   });

@@ -13,12 +13,24 @@ constexpr double kMaxOwnOffset = 3.0;       // of the point itself, in thickness
 constexpr float kNotPlanar = -1.0F;
 
 constexpr int kMaxNewtonSteps = 24;
-constexpr double kNewtonEnough = 1e-10;  // of the trace
+// Of the trace: the step after it is of the order of its square.
+constexpr double kNewtonEnough = 1e-7;
 
 /// A symmetric matrix without negative eigenvalues.
 struct Symmetric {
   double xx, xy, xz, yy, yz, zz;
 };
+
+// Of at least one point.
+Symmetric covarianceOf(const MomentSums& sums) {
+  const double inverse = 1.0 / sums.count;
+  const Vec3 mean = inverse * Vec3(sums.first[0], sums.first[1], sums.first[2]);
+  const auto central = [&](std::size_t at, Eigen::Index i, Eigen::Index k) {
+    return sums.second[at] * inverse - mean[i] * mean[k];
+  };
+  return {central(0, 0, 0), central(1, 0, 1), central(2, 0, 2),
+          central(3, 1, 1), central(4, 1, 2), central(5, 2, 2)};
+}
 
 // The eigenvalues, ascending. The characteristic polynomial is concave and negative below the
 // smallest: Newton's steps from zero come to it from below, and never beyond. No more than the
@@ -64,13 +76,22 @@ PlaneMoments::PlaneMoments(const MomentSums& sums) {
   count = sums.count;
   const double inverse = 1.0 / count;
   centroid = inverse * Vec3(sums.first[0], sums.first[1], sums.first[2]);
-  const auto central = [&](std::size_t at, Eigen::Index i, Eigen::Index k) {
-    return sums.second[at] * inverse - centroid[i] * centroid[k];
-  };
-  const Symmetric covariance{central(0, 0, 0), central(1, 0, 1), central(2, 0, 2),
-                             central(3, 1, 1), central(4, 1, 2), central(5, 2, 2)};
+  const Symmetric covariance = covarianceOf(sums);
   variances = eigenvaluesOf(covariance);
   normal = eigenvectorOf(covariance, variances[0]);
+}
+
+// By the pivots of what is left when that is taken off the diagonal.
+bool thickerThan(double variance, const MomentSums& sums) {
+  if (sums.count < 3) return false;
+  const Symmetric c = covarianceOf(sums);
+  const double xx = c.xx - variance;
+  if (!(xx > 0)) return false;
+  const double yy = (c.yy - variance) * xx - c.xy * c.xy;  // times xx
+  if (!(yy > 0)) return false;
+  const double yz = c.yz * xx - c.xy * c.xz;
+  const double zz = (c.zz - variance) * xx - c.xz * c.xz;
+  return zz * yy - yz * yz > 0;
 }
 
 MapPlane planeOf(const PlaneMoments& m, const PlaneFitLimits& limits) {

@@ -33,6 +33,10 @@ struct PlaneMoments {
   int count = 0;
 };
 
+/// Whether the variance of the points is larger than that along every axis: without the axes, which
+/// take longer. Of fewer than three points it is not.
+bool thickerThan(double variance, const MomentSums& sums);
+
 /// The plane about the origin, unless the moments are none of a plane (see fitPlane).
 MapPlane planeOf(const PlaneMoments& moments, const PlaneFitLimits& limits);
 

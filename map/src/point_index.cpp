@@ -39,8 +39,8 @@ void PointIndex::enclose(const BoxGroup& inner, BoxGroup& group, std::size_t lan
 }
 
 template <typename Item>
-RawArray<PointIndex::BoxGroup> PointIndex::groupsOver(const Item* items, std::size_t count,
-                                                      tbb::task_arena& arena) {
+RawArray<BoxGroup> PointIndex::groupsOver(const Item* items, std::size_t count,
+                                          tbb::task_arena& arena) {
   RawArray<BoxGroup> groups(chunkCount(count, kFan));
   forEachChunk(arena, groups.size(), kChunk, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t g = begin; g < end; ++g) {
@@ -75,18 +75,55 @@ PointIndex::Found PointIndex::nearest(const Point3f& query, float nearer_than_sq
   return sought.best;
 }
 
+// What lies near in groups of one level.
+void PointIndex::nearIn(std::size_t level, const Numbers& groups, const Point3f& query,
+                        float nearer_than_sq, NearBlocks& near) const {
+  // Eight more: what is found is written eight at a time.
+  const std::size_t room = kFan * (groups.count + 1);
+  if (near.numbers.size() < room) near.numbers.resize(room);
+  near.count = kernels_->nearBoxes(levels_[level].data(), groups, {query.x, query.y, query.z},
+                                   nearer_than_sq, near.numbers.data());
+}
+
+// Level by level: while one box is looked at, the memory of the next ones comes.
+void PointIndex::groupsNear(const Point3f& query, float nearer_than_sq, NearBlocks& near) const {
+  near.numbers.assign(1, 0);  // of the group at the top
+  near.count = levels_.empty() ? 0 : 1;
+  for (std::size_t level = levels_.size(); level-- > 1;) {
+    near.numbers.swap(near.outer);
+    nearIn(level, {near.outer.data(), near.count}, query, nearer_than_sq, near);
+  }
+}
+
+void PointIndex::blocksNear(const NearBlocks& groups, const Point3f& query, float nearer_than_sq,
+                            NearBlocks& near) const {
+  nearIn(0, groups.found(), query, nearer_than_sq, near);
+}
+
+void PointIndex::blocksNear(const Point3f& query, float nearer_than_sq, NearBlocks& near) const {
+  groupsNear(query, nearer_than_sq, near);
+  if (near.count == 0) return;
+  near.numbers.swap(near.outer);
+  nearIn(0, {near.outer.data(), near.count}, query, nearer_than_sq, near);
+}
+
 std::size_t PointIndex::bytes() const {
   std::size_t sum = block_count_ * sizeof(PointBlock);
   for (const auto& level : levels_) sum += level.size() * sizeof(BoxGroup);
   return sum + cubes_.bytes();
 }
 
-PointIndex::Box PointIndex::box() const {
-  const BoxGroup& top = levels_.back()[0];
+PointIndex::Box PointIndex::about(const BoxGroup& group) {
   BoxGroup whole{};
-  enclose(top, whole, 0);
+  enclose(group, whole, 0);
   return {{whole.low[0][0], whole.low[1][0], whole.low[2][0]},
           {whole.high[0][0], whole.high[1][0], whole.high[2][0]}};
+}
+
+PointIndex::Box PointIndex::box() const { return about(levels_.back()[0]); }
+
+PointIndex::Box PointIndex::boxOfGroup(std::size_t block) const {
+  return about(levels_.front()[block / kFan]);
 }
 
 }  // namespace paloc

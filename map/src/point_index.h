@@ -14,7 +14,9 @@
 #include "cube_table.h"
 #include "lanes4.h"
 #include "paloc/core/types.h"
-#include "point_block.h"
+#include "paloc/map/box_group.h"
+#include "paloc/map/point_block.h"
+#include "paloc/map/point_kernels.h"
 #include "prefetch.h"
 #include "raw_array.h"
 
@@ -30,6 +32,9 @@ class PointIndex {
  public:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
+  struct Box {
+    Eigen::Vector3f low, high;  ///< m
+  };
   struct Found {
     std::uint32_t index = kNone;
     float distance_sq = 0;  ///< m2
@@ -45,18 +50,9 @@ class PointIndex {
   std::size_t blocks() const { return block_count_; }
   std::size_t bytes() const;  ///< of points and boxes
 
-  struct Box {
-    Eigen::Vector3f low, high;
-  };
   Box box() const;  ///< about all points; there must be one
 
   Point3f point(std::uint32_t index) const { return pointAt(blocks_, index); }
-
-  /// Of a point in one of its blocks.
-  std::uint32_t indexOf(const PointBlock& block, std::size_t lane) const {
-    const auto number = static_cast<std::size_t>(&block - blocks_);
-    return static_cast<std::uint32_t>(number * PointBlock::kPoints + lane);
-  }
 
   /// The nearest of the points that `accept(index)` holds for, nearer than the given distance; of
   /// several equally near, any one, but always the same.
@@ -81,19 +77,29 @@ class PointIndex {
   template <typename Accept>
   void searchTogether(std::span<Sought> sought, const Accept& accept) const;
 
-  /// Calls visit(block) for every block whose box is nearer than the given distance, in a fixed
-  /// order.
-  template <typename Visit>
-  void visitNear(const Point3f& query, float nearer_than_sq, const Visit& visit) const;
+  /// Numbers of blocks, or of groups of eight blocks, with room to look for more. One object serves
+  /// one thread.
+  struct NearBlocks {
+    std::vector<std::uint32_t> numbers, outer;
+    std::size_t count = 0;
+
+    Numbers found() const { return {numbers.data(), count}; }
+  };
+  /// The blocks whose box is nearer than the given distance, in their order.
+  void blocksNear(const Point3f& query, float nearer_than_sq, NearBlocks& near) const;
+  /// The groups of eight blocks of which a box is nearer than the given distance, and others.
+  void groupsNear(const Point3f& query, float nearer_than_sq, NearBlocks& near) const;
+  /// The blocks that blocksNear() finds, in groups that hold them all.
+  void blocksNear(const NearBlocks& groups, const Point3f& query, float nearer_than_sq,
+                  NearBlocks& near) const;
+  /// About the group that a block is in.
+  Box boxOfGroup(std::size_t block) const;
+  const PointBlock* allBlocks() const { return blocks_; }
 
  private:
-  static constexpr std::size_t kFan = 8;
+  static constexpr std::size_t kFan = BoxGroup::kBoxes;
   static constexpr std::size_t kMaxLevels = 11;  // 8^11 exceeds what 32 bits count
 
-  /// Bounding boxes of eight blocks or groups; what is missing lies far away.
-  struct BoxGroup {
-    float low[3][kFan], high[3][kFan];  // x, y, z
-  };
   struct Step {
     float distance_sq;
     std::uint32_t group;
@@ -105,6 +111,9 @@ class PointIndex {
                             float* distances_sq);
   static void enclose(const PointBlock& block, BoxGroup& group, std::size_t lane);
   static void enclose(const BoxGroup& inner, BoxGroup& group, std::size_t lane);
+  static Box about(const BoxGroup& group);
+  void nearIn(std::size_t level, const Numbers& groups, const Point3f& query, float nearer_than_sq,
+              NearBlocks& near) const;
   template <typename Item>
   static RawArray<BoxGroup> groupsOver(const Item* items, std::size_t count,
                                        tbb::task_arena& arena);
@@ -121,6 +130,7 @@ class PointIndex {
   template <typename Accept>
   void prefetchRun(const CubeTable::Place& cube, const Accept& accept) const;
 
+  const PointKernels* kernels_ = &pointKernels();
   const PointBlock* blocks_ = nullptr;
   std::size_t block_count_ = 0, points_ = 0;
   std::vector<RawArray<BoxGroup>> levels_;  // boxes of blocks, of groups of blocks, ...
@@ -205,29 +215,14 @@ PointIndex::Found PointIndex::nearest(const Point3f& query, float nearer_than_sq
   return best;
 }
 
-// Lane by lane, without a branch: where the nearest is cannot be foreseen.
 inline void PointIndex::searchRun(const CubeTable::Run& run, const Point3f& query, AnyPoint,
                                   Found& best) const {
-  constexpr std::size_t kPoints = PointBlock::kPoints;
-  Float4 nearest_sq = all4(best.distance_sq);
-  Mask4 nearest{}, at{0, 1, 2, 3};
-  const std::size_t first = run.first / kPoints;
-  for (const PointBlock* block = blocks_ + first; block <= blocks_ + run.last() / kPoints;
-       ++block) {
-    for (std::size_t lane = 0; lane < kPoints; lane += 4, at += 4) {
-      const Float4 dx = load4(block->x + lane) - query.x, dy = load4(block->y + lane) - query.y,
-                   dz = load4(block->z + lane) - query.z;
-      const Float4 distance_sq = dx * dx + dy * dy + dz * dz;
-      const Mask4 nearer = distance_sq < nearest_sq;
-      nearest_sq = nearer ? distance_sq : nearest_sq;
-      nearest = nearer ? at : nearest;
-    }
-  }
-  for (std::size_t lane = 0; lane < 4; ++lane) {
-    if (nearest_sq[lane] >= best.distance_sq) continue;
-    best = {static_cast<std::uint32_t>(first * kPoints) + static_cast<std::uint32_t>(nearest[lane]),
-            nearest_sq[lane]};
-  }
+  constexpr std::uint32_t kPoints = PointBlock::kPoints;
+  const std::uint32_t first = run.first / kPoints;
+  const NearestOf nearest = kernels_->nearest(blocks_ + first, run.last() / kPoints - first + 1,
+                                              {query.x, query.y, query.z});
+  if (nearest.distance_sq >= best.distance_sq) return;
+  best = {first * kPoints + nearest.index, nearest.distance_sq};
 }
 
 template <typename Accept>
@@ -299,27 +294,6 @@ void PointIndex::searchTogether(std::span<Sought> sought, const Accept& accept) 
     if (best.distance_sq <= edge_sq) continue;
     const Found found = nearest(query, best.distance_sq, accept);
     if (found.index != kNone) best = found;
-  }
-}
-
-template <typename Visit>
-void PointIndex::visitNear(const Point3f& query, float nearer_than_sq, const Visit& visit) const {
-  Step steps[kFan * kMaxLevels];
-  std::size_t count = 0;
-  if (!levels_.empty()) steps[count++] = {0, 0, static_cast<std::uint32_t>(levels_.size() - 1)};
-  while (count > 0) {
-    const Step step = steps[--count];
-    float distances_sq[kFan];
-    unsigned bits = nearBoxes(levels_[step.level][step.group], query, nearer_than_sq, distances_sq);
-    for (; bits != 0; bits &= bits - 1) {
-      const auto lane = static_cast<std::uint32_t>(std::countr_zero(bits));
-      const auto child = static_cast<std::uint32_t>(step.group * kFan + lane);
-      if (step.level == 0) {
-        visit(blocks_[child]);
-      } else {
-        steps[count++] = {0, child, step.level - 1};
-      }
-    }
   }
 }
 

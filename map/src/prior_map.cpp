@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <optional>
 
@@ -14,29 +13,18 @@
 #include "paloc/core/errors.h"
 #include "paloc/core/text.h"
 #include "paloc/map/cloud_io.h"
-#include "parallel_chunks.h"
 #include "plane_fitter.h"
 #include "plane_store.h"
 #include "point_index.h"
 #include "point_vector.h"
 #include "prefetch.h"
+#include "stopwatch.h"
 
 namespace paloc {
 namespace {
 
 constexpr std::size_t kMinPoints = 100;
 constexpr std::size_t kMinPlanes = 20;
-constexpr std::size_t kChunk = 16384;
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 }  // namespace
 
@@ -81,21 +69,6 @@ void requireMemory(std::size_t points, const std::string& name) {
                          text(name, ": a prior map of its ", points, " points"));
 }
 
-RawArray<PointBlock> blocksOf(const RawArray<Point3f>& points, tbb::task_arena& arena) {
-  RawArray<PointBlock> blocks(chunkCount(points.size(), PointBlock::kPoints));
-  forEachChunk(arena, blocks.size(), kChunk, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin * PointBlock::kPoints; i < end * PointBlock::kPoints; ++i) {
-      PointBlock& block = blocks[i / PointBlock::kPoints];
-      const std::size_t lane = i % PointBlock::kPoints;
-      const bool there = i < points.size();
-      block.x[lane] = there ? points[i].x : PointBlock::kMissing;
-      block.y[lane] = there ? points[i].y : PointBlock::kMissing;
-      block.z[lane] = there ? points[i].z : PointBlock::kMissing;
-    }
-  });
-  return blocks;
-}
-
 std::uint64_t countPlanar(const PlaneStore& planes) {
   std::uint64_t planar = 0;
   for (std::size_t i = 0; i < planes.size(); ++i) planar += planes[i].planar();
@@ -128,11 +101,12 @@ std::unique_ptr<PriorMap::Data> PriorMap::prepare(const PointCloud& cloud,
   auto data = std::make_unique<Data>();
   PreparedMap& map = data->map;
   const Stopwatch sorting;
-  const RawArray<Point3f> points = thinAlongCurve(cloud, settings.voxel_m, arena, name);
-  map.blocks = blocksOf(points, arena);
+  BlockedPoints points = thinAlongCurve(cloud, settings.voxel_m, arena, name);
+  map.blocks = std::move(points.blocks);
+  map.points = points.count;
   data->statistics.sort_s = sorting.seconds();
   const Stopwatch indexing;
-  data->index = PointIndex(map.blocks, points.size(), curveVoxel(settings.voxel_m), arena);
+  data->index = PointIndex(map.blocks, map.points, curveVoxel(settings.voxel_m), arena);
   data->statistics.index_s = indexing.seconds();
   const Stopwatch fitting;
   map.planes = fitPlanes(data->index, settings, arena);
@@ -140,7 +114,6 @@ std::unique_ptr<PriorMap::Data> PriorMap::prepare(const PointCloud& cloud,
   map.origin = cloud.origin;
   map.points_read = std::max(cloud.points_read, cloud.size());
   map.nonfinite = cloud.nonfinite_dropped;
-  map.points = points.size();
   map.planar = countPlanar(map.planes);
   describe(map, data->index, data->statistics);
   if (map.planar < kMinPlanes) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -11,11 +10,11 @@
 #include "median.h"
 #include "parallel_chunks.h"
 #include "point_vector.h"
+#include "stopwatch.h"
 
 namespace paloc {
 namespace {
 
-constexpr std::size_t kChunk = 64;  // so small that the first steps, too, are shared among threads
 constexpr double kMinIncidenceCosine =
     0.1;  // flatter rays say little and are biased by their footprint
 constexpr double kNoiseCosine =
@@ -38,21 +37,6 @@ constexpr int kMinRows = 12;
 // that flip back and forth settle.
 constexpr int kRestlessIterations = 6;
 constexpr double kRestlessStartM = 1e-3, kRestlessGrowth = 1.5;
-
-/// Adds the time that passes until the end of its block.
-class AddTime {
- public:
-  explicit AddTime(double& sum_s) : sum_s_(sum_s) {}
-  ~AddTime() {
-    sum_s_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-  AddTime(const AddTime&) = delete;
-  AddTime& operator=(const AddTime&) = delete;
-
- private:
-  double& sum_s_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 Pose movedInBody(const Pose& pose, const Vec6& delta) {
   Vec6 in_map = delta;
@@ -176,8 +160,10 @@ void Registration::associate(const Pose& pose, double gate, int iteration, std::
   const double research =
       std::max(settings_.research_distance_m, least) * std::pow(kRestlessGrowth, restless);
   const double research_sq = research * research;
-  forEachChunk(arena_, (points_.points.size() + stride - 1) / stride, kChunk,
-               [&](std::size_t, std::size_t begin, std::size_t end) {
+  const std::size_t count_all = chunkCount(points_.points.size(), stride);
+  collected_.resize(chunkCount(count_all, kChunk));
+  forEachChunk(arena_, count_all, kChunk,
+               [&](std::size_t chunk, std::size_t begin, std::size_t end) {
                  std::array<std::uint32_t, kChunk> moved{};
                  std::size_t count = 0;
                  for (std::size_t i = begin * stride; i < points_.points.size() && i < end * stride;
@@ -201,8 +187,10 @@ void Registration::associate(const Pose& pose, double gate, int iteration, std::
                    Correspondence& match = matches_[moved[k]];
                    if (match.planar) measure(match, moved[k], match.searched_at, pose.rotation);
                  }
+                 collect(begin * stride, std::min(end * stride, points_.points.size()), stride,
+                         gate, collected_[chunk]);
                });
-  collectMatched(gate, stride);
+  joinCollected();
   fillLanes(pose);
   association_ = {pose, stride, gate};
 }
@@ -217,13 +205,23 @@ bool Registration::holdsAt(const Pose& pose, double gate, std::size_t stride) co
          kKeptShare * settings_.research_distance_m;
 }
 
-void Registration::collectMatched(double gate, std::size_t stride) {
+// What is matched of every stride-th point in [begin, end).
+void Registration::collect(std::size_t begin, std::size_t end, std::size_t stride, double gate,
+                           Collected& collected) const {
+  collected.near = collected.count = 0;
+  for (std::size_t i = begin; i < end; i += stride) {
+    if (!matches_[i].near || matches_[i].distance > gate) continue;
+    ++collected.near;
+    if (matches_[i].planar) collected.matched[collected.count++] = static_cast<std::uint32_t>(i);
+  }
+}
+
+void Registration::joinCollected() {
   matched_.clear();
   near_ = 0;
-  for (std::size_t i = 0; i < matches_.size(); i += stride) {
-    if (!matches_[i].near || matches_[i].distance > gate) continue;
-    ++near_;
-    if (matches_[i].planar) matched_.push_back(static_cast<std::uint32_t>(i));
+  for (const Collected& part : collected_) {
+    near_ += part.near;
+    matched_.insert(matched_.end(), part.matched.begin(), part.matched.begin() + part.count);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <tbb/task_arena.h>
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -68,6 +69,15 @@ class Registration {
   Mat6 spreadOfRows();
 
  private:
+  // So small that the first steps, too, are shared among threads.
+  static constexpr std::size_t kChunk = 64;
+
+  /// Of a chunk of points those with a plane, ascending, and how many have any map point near.
+  struct Collected {
+    std::array<std::uint32_t, kChunk> matched;
+    std::uint32_t count;
+    int near;
+  };
   struct Correspondence {
     std::uint32_t alignment = 0;  // in which it was sought
     Vec3 searched_at = Vec3::Zero();
@@ -89,7 +99,9 @@ class Registration {
   void take(Correspondence& match, const PriorMap::Nearest& nearest, const Vec3& from_sensor) const;
   void measure(Correspondence& match, std::size_t point, const Vec3& position,
                const Mat3& rotation) const;
-  void collectMatched(double gate, std::size_t stride);
+  void collect(std::size_t begin, std::size_t end, std::size_t stride, double gate,
+               Collected& collected) const;
+  void joinCollected();
   void fillLanes(const Pose& pose);
   bool holdsAt(const Pose& pose, double gate, std::size_t stride) const;
   double robustScale(std::size_t sample);
@@ -107,6 +119,7 @@ class Registration {
   std::vector<double> range_variance_;  // of each point (m2)
   Vec3 sensor_body_ = Vec3::Zero();
   std::vector<Correspondence> matches_;
+  std::vector<Collected> collected_;
   std::vector<std::uint32_t> matched_;  // points with a plane, ascending
   MatchedLanes lanes_;                  // of these, at the pose of the last step
   // Where, for which of the points and within what distance planes were sought last.

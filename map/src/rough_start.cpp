@@ -68,7 +68,7 @@ RoughStart searchAround(Registration& registration, const PriorMap& map,
              .gate_m = std::min(settings.fine_distance_m, settings.max_distance_m),
              .max_iterations = settings.max_iterations});
   found.evidence = weighStart(registration, found.alignment, map, kRays);
-  found.refusal = judgeStart(found.evidence, settings);
+  found.refusal = verifyStart(registration, found.alignment, map, settings, found.evidence);
   return found;
 }
 

@@ -3,7 +3,6 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -17,10 +16,12 @@
 #include "paloc/map/surface_patches.h"
 #include "paloc/map/surface_register.h"
 #include "parallel_chunks.h"
+#include "point_vector.h"
 #include "registration.h"
 #include "rough_start.h"
 #include "start_finder.h"
 #include "start_region.h"
+#include "stopwatch.h"
 
 namespace paloc {
 namespace {
@@ -30,11 +31,7 @@ constexpr double kNearM = 1, kNearRad = 0.25;
 constexpr double kOutsideShare = 0.1;  // of the points near any map point, below: outside the map
 // Of the matched points, so many are enough to compare two spectra, and so many neighbours for a
 // normal.
-constexpr std::size_t kSpectrumPoints = 150, kSpectrumNeighbours = 15;
-
-double secondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
+constexpr std::size_t kSpectrumPoints = 150, kSpectrumNeighbours = 15, kSpectrumChunk = 25;
 
 }  // namespace
 
@@ -173,9 +170,9 @@ class ScanMatcher::Work {
       answer.refusal = MatchRefusal::kNoScan;
       return answer;
     }
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     AveragedPoints averaged = thinned(scan);
-    timing_.filter_s = secondsSince(start);
+    timing_.filter_s = stopwatch.seconds();
     answer.points = static_cast<int>(averaged.points.size());
     answer.thinned = std::make_shared<const Scan>(Scan{
         scan.start_ns, scan.end_ns, averaged.points, scan.sensor_position_body, averaged.returns});
@@ -202,7 +199,7 @@ class ScanMatcher::Work {
   }
 
   void fill(const Alignment& alignment, MapMatch& answer) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     timing_.association_s = alignment.timing.association_s;
     timing_.solve_s = alignment.timing.solve_s;
     const Pose& local = alignment.T_local_body;
@@ -230,7 +227,7 @@ class ScanMatcher::Work {
       answer.shared_spread = informationInMap(spread, local.rotation);
       if (answer.accepted()) addSurfaces(all_shared, local, answer);
     }
-    timing_.information_s = secondsSince(start);
+    timing_.information_s = stopwatch.seconds();
   }
 
   void addSurfaces(const Mat6& spread, const Pose& local, MapMatch& answer) {
@@ -248,25 +245,29 @@ class ScanMatcher::Work {
 
   void addSpectrum(double& spectrum) {
     if (!settings_.spectrum) return;
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     spectrum = spectrumOfRows();
-    timing_.spectrum_s = secondsSince(start);
+    timing_.spectrum_s = stopwatch.seconds();
   }
 
-  // The scan's own surfaces against the map's, at some of the matched points, evenly.
-  double spectrumOfRows() const {
+  // The scan's own surfaces against the map's, at some of the matched points, evenly; in chunks,
+  // for whichever thread has nothing else to do.
+  double spectrumOfRows() {
     const std::vector<PlaneRow>& rows = registration_.rows();
     const ScanNormals scan_normals(registration_.points());
     const double radius_m = scan_normals.radiusFor(kSpectrumNeighbours);
-    const std::size_t step = (rows.size() + kSpectrumPoints - 1) / kSpectrumPoints;
-    std::vector<TwoNormals> points;
-    for (std::size_t k = 0; k < rows.size(); k += step) {
-      const Vec3& p = rows[k].point_body;
-      const Vec3 normal = scan_normals.at(
-          {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())},
-          radius_m);
-      if (!normal.isZero()) points.push_back({p, normal, rows[k].normal_body});
-    }
+    const std::size_t step = std::max<std::size_t>(chunkCount(rows.size(), kSpectrumPoints), 1);
+    std::vector<TwoNormals> points(chunkCount(rows.size(), step));
+    forEachChunk(arena_, points.size(), kSpectrumChunk,
+                 [&](std::size_t, std::size_t begin, std::size_t end) {
+                   for (std::size_t k = begin; k < end; ++k) {
+                     const PlaneRow& row = rows[k * step];
+                     points[k] = {row.point_body,
+                                  scan_normals.at(toPoint(row.point_body), radius_m),
+                                  row.normal_body};
+                   }
+                 });
+    std::erase_if(points, [](const TwoNormals& point) { return point.scan_normal.isZero(); });
     return spectrumDifference(points);
   }
 

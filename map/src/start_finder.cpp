@@ -105,16 +105,16 @@ StartFinder::Place StartFinder::nudged(const Place& place, Registration& registr
   return best;
 }
 
-MatchRefusal StartFinder::judge(const FoundStart& found, bool finished) const {
-  const StartEvidence& e = found.evidence;
+MatchRefusal StartFinder::judge(FoundStart& found, bool finished,
+                                const Registration& registration) const {
   if (!finished) return MatchRefusal::kSearchUnfinished;
-  const MatchRefusal refusal = judgeStart(e, settings_);
-  if (refusal != MatchRefusal::kNone) return refusal;
-  const double left = 1 - e.worth(), second_left = 1 - found.runner_up;
+  const double left = 1 - found.evidence.worth(), second_left = 1 - found.runner_up;
   const double lead = second_left - left;
   const bool ahead =
       lead >= kSureLead || (lead >= settings_.start_min_lead && second_left >= kLead * left);
-  return ahead ? MatchRefusal::kNone : MatchRefusal::kAmbiguous;
+  const MatchRefusal refusal =
+      verifyStart(registration, found.alignment, map_, settings_, found.evidence);
+  return refusal == MatchRefusal::kNone && !ahead ? MatchRefusal::kAmbiguous : refusal;
 }
 
 FoundStart StartFinder::find(const std::vector<Point3f>& points_body, const StartRegion& region,
@@ -157,7 +157,7 @@ FoundStart StartFinder::find(const std::vector<Point3f>& points_body, const Star
       best, {.first_gate_m = settings_.max_distance_m,
              .gate_m = std::min(settings_.fine_distance_m, settings_.max_distance_m),
              .max_iterations = settings_.max_iterations});
-  found.refusal = judge(found, candidates.finished);
+  found.refusal = judge(found, candidates.finished, registration);
   return found;
 }
 

@@ -51,7 +51,7 @@ class StartFinder {
   Place registerFrom(const Pose& from, double first_gate_m, std::size_t rays,
                      Registration& registration) const;
   Place nudged(const Place& place, Registration& registration) const;
-  MatchRefusal judge(const FoundStart& found, bool finished) const;
+  MatchRefusal judge(FoundStart& found, bool finished, const Registration& registration) const;
 
   const PriorMap& map_;
   const MatcherSettings& settings_;

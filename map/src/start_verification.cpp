@@ -19,10 +19,14 @@ constexpr double kOffMapM = 0.15;  // this far from all map points is off its su
 // Standard deviations that the share of contradicting points, told from some of them, must stay
 // below its limit by.
 constexpr double kSure = 2;
-// Rays that graze a thick surface pass through points of it: at the right place in a map of scans
-// up to a tenth of them.
-constexpr double kMaxBlocked = 0.1;
-constexpr double kRefuted = 2;          // times what may be
+// Rays that graze a thick surface, or meet a passer-by in it, pass through points of the map: at
+// the right place in a map of scans up to an eighth of them.
+constexpr double kMaxBlocked = 0.15;
+constexpr double kRefuted = 2, kRefutedBlocked = 0.2;  // times what may contradict; rays
+// Another place has things that this one has not, and lacks others: with the building's other
+// storeys at least 0.5 % of the rays pass through these. What a survey did not see only adds.
+constexpr double kNothingGone = 0.004;
+constexpr double kUnseen = 1.5;         // times what may contradict, then
 constexpr double kThroughCosine = 0.5;  // flatter rays glide along a surface
 
 PriorMap::Nearest nearestTo(const PriorMap& map, const Vec3& at, double within_m) {
@@ -91,6 +95,20 @@ double contradictedShare(const PriorMap& map, const std::vector<Point3f>& points
          static_cast<double>(std::max<std::size_t>(points_body.size(), 1));
 }
 
+// No larger, surely, than that, as one share of many rays.
+double surelyAtMost(double share, std::size_t rays) {
+  const auto count = static_cast<double>(std::max<std::size_t>(rays, 1));
+  return share + kSure * std::sqrt(std::max(share, 1 / count) / count);
+}
+
+// Whether what contradicts may be what the survey did not see: the far side of a cupboard, a
+// shadow.
+bool mayBeUnseen(const StartEvidence& evidence, const MatcherSettings& settings) {
+  return surelyAtMost(evidence.blocked, evidence.rays) < kNothingGone &&
+         surelyAtMost(evidence.contradicted, evidence.rays) <
+             kUnseen * settings.start_max_contradicted;
+}
+
 }  // namespace
 
 MatchRefusal judgeStart(const StartEvidence& evidence, const MatcherSettings& settings) {
@@ -98,17 +116,27 @@ MatchRefusal judgeStart(const StartEvidence& evidence, const MatcherSettings& se
       evidence.fitting < settings.locate_min_inlier_share) {
     return MatchRefusal::kNotVerified;
   }
-  const auto rays = static_cast<double>(std::max<std::size_t>(evidence.rays, 1));
-  const double share = std::max(evidence.contradicted, 1 / rays);
-  const double at_most = evidence.contradicted + kSure * std::sqrt(share / rays);
-  const bool contradicts = at_most > settings.start_max_contradicted;
+  const bool contradicts =
+      surelyAtMost(evidence.contradicted, evidence.rays) > settings.start_max_contradicted;
   return contradicts || evidence.blocked > kMaxBlocked ? MatchRefusal::kMapContradicts
                                                        : MatchRefusal::kNone;
 }
 
+MatchRefusal verifyStart(const Registration& registration, const Alignment& alignment,
+                         const PriorMap& map, const MatcherSettings& settings,
+                         StartEvidence& evidence) {
+  const MatchRefusal refusal = judgeStart(evidence, settings);
+  if (refusal != MatchRefusal::kMapContradicts || isRefuted(evidence, settings)) return refusal;
+  const StartEvidence whole =
+      weighStart(registration, alignment, map, registration.points().size());
+  if (!mayBeUnseen(whole, settings)) return refusal;
+  evidence = whole;
+  return MatchRefusal::kNone;
+}
+
 bool isRefuted(const StartEvidence& evidence, const MatcherSettings& settings) {
   return evidence.contradicted > kRefuted * settings.start_max_contradicted ||
-         evidence.blocked > kRefuted * kMaxBlocked;
+         evidence.blocked > kRefutedBlocked;
 }
 
 StartEvidence weighStart(const Registration& registration, const Alignment& alignment,

@@ -32,4 +32,10 @@ bool isRefuted(const StartEvidence& evidence, const MatcherSettings& settings);
 StartEvidence weighStart(const Registration& registration, const Alignment& alignment,
                          const PriorMap& map, std::size_t rays);
 
+/// Whether to believe the alignment that `registration` made last, and else why not. Where some of
+/// the rays leave a doubt, all are followed, and are the evidence then.
+MatchRefusal verifyStart(const Registration& registration, const Alignment& alignment,
+                         const PriorMap& map, const MatcherSettings& settings,
+                         StartEvidence& evidence);
+
 }  // namespace paloc

@@ -27,32 +27,6 @@ inline std::uint64_t spreadBits(std::uint64_t v) {
   return v;
 }
 
-/// Place of a voxel on the Hilbert curve through 2^bits voxels an axis. Voxels that follow each
-/// other on it touch: points in this order lie in compact groups, however these are cut. The place
-/// is found by undoing, from the largest cube to the smallest, the exchange and inversion of axes
-/// that the curve makes within each (after J. Skilling, "Programming the Hilbert curve", 2004).
-inline std::uint64_t hilbertKey(std::uint32_t i, std::uint32_t j, std::uint32_t k, int bits) {
-  std::uint32_t axes[3] = {i, j, k};
-  for (std::uint32_t bit = bits > 0 ? 1U << (bits - 1) : 0; bit > 1; bit >>= 1) {
-    const std::uint32_t below = bit - 1;
-    for (std::uint32_t& axis : axes) {
-      // Without a branch: inverts the first axis below the bit, or exchanges it with this one.
-      const std::uint32_t invert = (axis & bit) != 0 ? below : 0;
-      const std::uint32_t exchange = (axes[0] ^ axis) & (below & ~invert);
-      axes[0] ^= invert | exchange;
-      axis ^= exchange;
-    }
-  }
-  axes[1] ^= axes[0];
-  axes[2] ^= axes[1];
-  std::uint32_t flips = 0;
-  for (std::uint32_t bit = bits > 0 ? 1U << (bits - 1) : 0; bit > 1; bit >>= 1) {
-    flips ^= (axes[2] & bit) != 0 ? bit - 1 : 0;
-  }
-  return spreadBits(axes[0] ^ flips) << 2 | spreadBits(axes[1] ^ flips) << 1 |
-         spreadBits(axes[2] ^ flips);
-}
-
 /// Mixes the bits of a key for a hash table whose size is a power of two (Fibonacci hashing).
 inline std::uint64_t hashKey(std::uint64_t key) {
   key ^= key >> 32;

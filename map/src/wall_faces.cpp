@@ -1,10 +1,10 @@
 #include "wall_faces.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <vector>
 
+#include "near_points.h"
 #include "parallel_chunks.h"
 #include "point_vector.h"
 
@@ -48,27 +48,22 @@ class OtherFace {
  private:
   // All points on parallel planes that are not the point's own, as far as any place reaches.
   void gather(const Vec3f& point, float reach_m) {
-    candidates_.clear();
     const float reach_sq = reach_m * reach_m;
     const Point3f centre{point.x(), point.y(), point.z()};
-    index_.visitNear(centre, kThickestM * kThickestM + reach_sq, [&](const PointBlock& block) {
-      for (std::size_t at = 0; at < PointBlock::kPoints; at += 4) {
-        const Float4 x = load4(block.x + at) - centre.x, y = load4(block.y + at) - centre.y,
-                     z = load4(block.z + at) - centre.z;
-        const Float4 height = x * normal_.x() + y * normal_.y() + z * normal_.z();
-        const Float4 height_sq = height * height;
-        unsigned bits =
-            bitsOf((height_sq >= kThinnestM * kThinnestM) & (height_sq <= kThickestM * kThickestM) &
-                   (x * x + y * y + z * z - height_sq <= reach_sq));
-        for (; bits != 0; bits &= bits - 1) {
-          const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-          const std::uint32_t i = index_.indexOf(block, at + lane);
-          if (!planes_[i].planar()) continue;
-          if (!isParallel(planes_[i])) continue;
-          candidates_.push_back({x[lane], y[lane], z[lane]});
-        }
-      }
+    index_.blocksNear(centre, kThickestM * kThickestM + reach_sq, blocks_);
+    const std::size_t most = blocks_.count * PointBlock::kPoints;
+    indices_.resize(std::max(indices_.size(), most + PointBlock::kPoints));
+    aside_.fill(most, [&](const PackedColumns& columns) {
+      return pointKernels().gatherAside(index_.allBlocks(), blocks_.found(),
+                                        {toPlace(point), toPlace(normal_), kThinnestM * kThinnestM,
+                                         kThickestM * kThickestM, reach_sq},
+                                        columns, indices_.data());
     });
+    candidates_.clear();
+    for (std::size_t i = 0; i < aside_.size(); ++i) {
+      const PackedPlane& plane = planes_[indices_[i]];
+      if (plane.planar() && isParallel(plane)) candidates_.push_back(aside_[i]);
+    }
   }
 
   // Only where it is close is the normal brought to unit length.
@@ -92,7 +87,10 @@ class OtherFace {
   const PlaneStore& planes_;
   Vec3f normal_ = Vec3f::Zero();
   float aside_sq_ = 0;
-  std::vector<Vec3f> candidates_;  // relative to the point
+  PointIndex::NearBlocks blocks_;
+  NearPoints aside_;
+  std::vector<std::uint32_t> indices_;  // of these
+  std::vector<Vec3f> candidates_;       // relative to the point
 };
 
 /// What is to become of a plane.

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 
 #include "paloc/core/mrpt_pose.h"
@@ -149,6 +150,49 @@ TEST(StartLocate, AnotherStoreyIsRefusedFromWhereTheRightOneWouldBe) {
     EXPECT_FALSE(match.accepted())
         << match.explained << ' ' << match.contradicted << ' ' << match.blocked;
   }
+}
+
+/// The furnished room with a screen, of which the survey did not see the side that faces the body.
+test::BoxWorld roomWithScreen() {
+  test::BoxWorld world = furnishedRoom();
+  world.boxes.insert(world.boxes.begin() + 1, {Vec3(1.2, -1, 0), Vec3(1.5, 0.35, 1.4)});
+  return world;
+}
+
+std::shared_ptr<const PriorMap> mapWithoutOneSideOfTheScreen() {
+  const test::BoxWorld world = roomWithScreen();
+  const test::Box& screen = world.boxes[1];
+  const Pose T_world_map = world.T_map_world.inverse();
+  PointCloud seen = sampleMap(world, 0.06, 0.003, 1);
+  std::erase_if(seen.points, [&](const Point3f& p) {
+    const Vec3 at = T_world_map * Vec3(static_cast<double>(p.x), static_cast<double>(p.y),
+                                       static_cast<double>(p.z));
+    return std::abs(at.x() - screen.low.x()) < 0.03 && at.y() > screen.low.y() + 0.03 &&
+           at.y() < screen.high.y() - 0.03 && at.z() > 0.03 && at.z() < screen.high.z() - 0.03;
+  });
+  seen.intensity.clear();
+  return PriorMap::build(seen, {});
+}
+
+TEST(StartLocate, SideThatTheSurveyDidNotSeeIsNoContradiction) {
+  const test::BoxWorld world = roomWithScreen();
+  const auto matcher = ScanMatcher::onto(mapWithoutOneSideOfTheScreen(), {});
+  const MapMatch match =
+      matcher->locate(scanIn(world), roughly(truthIn(world), Vec3(0.5, 0.3, 0), 0.1));
+  EXPECT_GT(match.contradicted, 0.02);
+  EXPECT_LT(match.blocked, 0.002);
+  expectFound(match, truthIn(world));
+}
+
+// As many points off the map, but what the map shows elsewhere is not there.
+TEST(StartLocate, SideThatTheSurveyDidNotSeeIsOneWhereSomethingIsGone) {
+  test::BoxWorld scanned = roomWithScreen();
+  const auto matcher = ScanMatcher::onto(mapWithoutOneSideOfTheScreen(), {});
+  scanned.boxes.pop_back();
+  const MapMatch match =
+      matcher->locate(scanIn(scanned), roughly(truthIn(scanned), Vec3(0.5, 0.3, 0), 0.1));
+  EXPECT_GT(match.blocked, 0.004);
+  EXPECT_EQ(match.refusal, MatchRefusal::kMapContradicts) << match.contradicted;
 }
 
 // What lies beyond the part that was surveyed says nothing against a place. (Without a pose so near
