@@ -29,7 +29,7 @@ void addNoise(Rows& s) {
   s.number("plane_bias_m", &S::plane_bias_m, "m", {0, 1},
            "Error that all returns from one plane patch share.");
   s.number("plane_patch_m", &S::plane_patch_m, "m", {0.1, 1000},
-           "Radius of such a patch: the extent of one wall, as surveyed.");
+           "Radius of such a patch: a wall, as far as it shares an error.");
   s.number("range_bias_m", &S::range_bias_m, "m", {0, 1},
            "Error that all returns of a scan share.");
 }

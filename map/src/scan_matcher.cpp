@@ -214,9 +214,13 @@ class ScanMatcher::Work {
     if (!registration_.rows().empty()) {
       std::optional<DirectionObserver> observer;
       Mat6 all_shared;
+      std::vector<SurfacePatch> patches;
       tbb::parallel_invoke(
           [&] { observer.emplace(registration_.rows(), settings_.normal_noise_rad); },
-          [&] { all_shared = registration_.spreadOfRows(); });
+          [&] {
+            all_shared = registration_.spreadOfRows();
+            patches = surfacePatches(registration_.rows());
+          });
       const ObservedDirections observed = observer->under(all_shared);
       answer.directions = observed.directions;
       const bool handled = settings_.degeneracy_handling;
@@ -225,15 +229,15 @@ class ScanMatcher::Work {
       const Mat6& spread = handled ? observed.shared_spread : all_shared;
       answer.information = informationInMap(information, local.rotation);
       answer.shared_spread = informationInMap(spread, local.rotation);
-      if (answer.accepted()) addSurfaces(all_shared, local, answer);
+      keepWhatMatters(observer->information(), all_shared, settings_.plane_bias_m, patches);
+      if (answer.accepted()) addSurfaces(patches, local, answer);
     }
     timing_.information_s = stopwatch.seconds();
   }
 
-  void addSurfaces(const Mat6& spread, const Pose& local, MapMatch& answer) {
+  void addSurfaces(const std::vector<SurfacePatch>& patches, const Pose& local, MapMatch& answer) {
     auto surfaces = std::make_shared<std::vector<SurfaceGradient>>();
-    for (const SurfacePatch& patch :
-         surfacePatches(registration_.rows(), spread, settings_.plane_bias_m)) {
+    for (const SurfacePatch& patch : patches) {
       SurfaceGradient& surface = surfaces->emplace_back();
       surface.surface = surfaces_.surfaceOf(local.rotation * patch.normal, local * patch.point);
       surface.gradient = patch.gradient;

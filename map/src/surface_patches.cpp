@@ -8,8 +8,10 @@ namespace {
 
 constexpr double kMatters = 1e-3;
 
-// Of each patch the sums, normal and point weighted like the gradient.
-std::vector<SurfacePatch> sumsOf(std::span<const PlaneRow> rows) {
+}  // namespace
+
+// Normal and point are weighted like the gradient.
+std::vector<SurfacePatch> surfacePatches(std::span<const PlaneRow> rows) {
   std::vector<SurfacePatch> patches;
   std::vector<double> weights;
   for (const PlaneRow& row : rows) {
@@ -31,13 +33,10 @@ std::vector<SurfacePatch> sumsOf(std::span<const PlaneRow> rows) {
   return patches;
 }
 
-}  // namespace
-
-std::vector<SurfacePatch> surfacePatches(std::span<const PlaneRow> rows, const Mat6& spread,
-                                         double plane_bias_m) {
+void keepWhatMatters(const Mat6& information, const Mat6& spread, double plane_bias_m,
+                     std::vector<SurfacePatch>& patches) {
   using Square = Eigen::Matrix<double, 6, 6>;
-  std::vector<SurfacePatch> patches = sumsOf(rows);
-  Square sum = leastSquares(rows).information + spread;
+  Square sum = information + spread;
   sum += 1e-12 * sum.diagonal().maxCoeff() * Square::Identity();
   const Eigen::LDLT<Square> factor = sum.ldlt();
   const double variance = plane_bias_m * plane_bias_m;
@@ -45,7 +44,6 @@ std::vector<SurfacePatch> surfacePatches(std::span<const PlaneRow> rows, const M
     const Vec6 moved = factor.solve(Eigen::Matrix<double, 6, 1>(patch.gradient));
     return variance * patch.gradient.dot(moved) < kMatters;
   });
-  return patches;
 }
 
 }  // namespace paloc

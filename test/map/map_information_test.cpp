@@ -8,6 +8,7 @@
 
 #include "paloc/core/shared_errors.h"
 #include "paloc/map/degeneracy.h"
+#include "paloc/map/matcher_settings.h"
 #include "simulated_rooms.h"
 
 namespace paloc {
@@ -126,7 +127,8 @@ TEST(MapInformation, CovarianceHoldsUnderSharedBiases) {
     for (unsigned run = 0; run < kRuns; ++run) {
       const Scan scan = test::simulateScan(world, truth, 3000, {0.02, bias, bias}, 30, 100 + run);
       std::vector<PlaneRow> rows = rowsInRoom(world, scan, truth, 0.02);
-      const SharedErrors shared{assignPatches(rows, 20, bias, 0), bias};
+      const SharedErrors shared{assignPatches(rows, MatcherSettings().plane_patch_m, bias, 0),
+                                bias};
       const NormalEquations plain = leastSquares(rows);
       const Eigen::Matrix<double, 6, 6> hessian = plain.information;
       const Eigen::Matrix<double, 6, 1> gradient = plain.gradient;

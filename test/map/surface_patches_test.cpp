@@ -34,7 +34,9 @@ TEST(SurfacePatches, TheirGradientsMakeUpTheSpread) {
   constexpr double kBias_m = 0.004;
   const SharedErrors shared{std::vector<double>(3, kBias_m * kBias_m), 0};
   const Mat6 spread = sharedSpread(rows, shared);
-  const std::vector<SurfacePatch> patches = surfacePatches(rows, spread, kBias_m);
+  std::vector<SurfacePatch> patches = surfacePatches(rows);
+  ASSERT_EQ(patches.size(), 3U);
+  keepWhatMatters(leastSquares(rows).information, spread, kBias_m, patches);
   ASSERT_EQ(patches.size(), 2U) << "one point does not matter";
   Mat6 sum = Mat6::Zero();
   for (const SurfacePatch& patch : patches) {
@@ -46,9 +48,11 @@ TEST(SurfacePatches, TheirGradientsMakeUpTheSpread) {
   EXPECT_NEAR(patches[1].point.x(), 2, 1e-12);
 }
 
-TEST(SurfacePatches, NoneWithoutABias) {
-  EXPECT_TRUE(surfacePatches(rowsOnPlanes(), Mat6::Zero(), 0).empty());
-  EXPECT_TRUE(surfacePatches({}, Mat6::Zero(), 0.005).empty());
+TEST(SurfacePatches, NoneMattersWithoutABias) {
+  std::vector<SurfacePatch> patches = surfacePatches(rowsOnPlanes());
+  keepWhatMatters(leastSquares(rowsOnPlanes()).information, Mat6::Zero(), 0, patches);
+  EXPECT_TRUE(patches.empty());
+  EXPECT_TRUE(surfacePatches({}).empty());
 }
 
 }  // namespace

@@ -51,6 +51,8 @@ PALOC_EXPORT ObservedDirections observeDirections(std::span<const PlaneRow> rows
 class PALOC_EXPORT DirectionObserver {
  public:
   DirectionObserver(std::span<const PlaneRow> rows, double normal_noise_rad);
+  /// Of the rows as independent ones (leastSquares), nothing scaled down.
+  const Mat6& information() const { return geometry_; }
   /// Without their sigmas.
   const std::array<MatchDirection, 6>& directions() const { return directions_; }
   ObservedDirections under(const Mat6& spread) const;

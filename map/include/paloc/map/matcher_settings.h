@@ -13,7 +13,7 @@ struct MatcherSettings {
   double map_noise_m = 0.005;      ///< of a map point about its surface
   double normal_noise_rad = 0.01;  ///< of a map normal beyond what its fit tells: uneven walls
   double plane_bias_m = 0.005;     ///< error that all returns from one plane patch share
-  double plane_patch_m = 10;       ///< radius of such a patch: the extent of one wall, as surveyed
+  double plane_patch_m = 5;        ///< radius of such a patch: a wall, as far as it shares an error
   double range_bias_m = 0.003;     ///< error that all returns of a scan share
   double min_overlap = 0.2;        ///< share of points that must find a plane
   int min_inliers = 100;

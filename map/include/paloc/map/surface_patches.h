@@ -15,10 +15,13 @@ struct SurfacePatch {
   Vec3 point = Vec3::Zero();     ///< their centroid (m)
 };
 
-/// The patches (assignPatches()) whose shift, of standard deviation `plane_bias_m`, matters to the
-/// pose: in units of its covariance, of which each patch has the part S Y^T (H + G S G^T)^-1 Y of
-/// six, at least a thousandth. `spread` is sharedSpread().
-PALOC_EXPORT std::vector<SurfacePatch> surfacePatches(std::span<const PlaneRow> rows,
-                                                      const Mat6& spread, double plane_bias_m);
+/// The patches that rows lie on (assignPatches()), by their numbers.
+PALOC_EXPORT std::vector<SurfacePatch> surfacePatches(std::span<const PlaneRow> rows);
+
+/// Leaves of them those whose shift, of standard deviation `plane_bias_m`, matters to the pose: in
+/// units of its covariance, of which each patch has the part S Y^T (H + G S G^T)^-1 Y of six, at
+/// least a thousandth. `information` is that of leastSquares(), `spread` that of sharedSpread().
+PALOC_EXPORT void keepWhatMatters(const Mat6& information, const Mat6& spread, double plane_bias_m,
+                                  std::vector<SurfacePatch>& patches);
 
 }  // namespace paloc
