@@ -5,14 +5,14 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "patch_sums.h"
+
 namespace paloc {
 namespace {
 
 constexpr double kSamePlaneCosine = 0.978;  // 12 degrees
 constexpr double kSamePlaneHeightM = 0.1;
-constexpr int kKnownRows = 5;  // of a patch, for its normal to be known
-// A patch whose mean residual is more than so many squared standard deviations stands elsewhere.
-constexpr double kSureSquare = 9;
+constexpr int kKnownRows = 5;              // of a patch, for its normal to be known
 constexpr double kSharedThickness = 0.25;  // of the square, beyond white noise
 
 using Vec4f = float __attribute__((vector_size(16)));
@@ -154,32 +154,7 @@ NormalEquations leastSquares(std::span<const PlaneRow> rows) {
 }
 
 Mat6 sharedSpread(std::span<const PlaneRow> rows, const SharedErrors& shared) {
-  struct PatchSums {
-    Vec6 jacobian = Vec6::Zero();  // Y_k
-    double weight = 0, residual = 0;
-  };
-  std::vector<PatchSums> patches(shared.patch_variances.size());
-  Vec6 range_sum = Vec6::Zero();  // y
-  for (const PlaneRow& row : rows) {
-    const Vec6 weighted = row.jacobian() / row.variance;
-    range_sum += row.range_factor * weighted;
-    if (row.patch < 0 || patches.empty()) continue;
-    PatchSums& patch = patches[static_cast<std::size_t>(row.patch)];
-    patch.jacobian += weighted;
-    patch.weight += 1 / row.variance;
-    patch.residual += row.residual / row.variance;
-  }
-  Mat6 spread = (shared.range_bias_m * shared.range_bias_m) * range_sum * range_sum.transpose();
-  for (std::size_t k = 0; k < patches.size(); ++k) {
-    const PatchSums& patch = patches[k];
-    if (patch.weight <= 0) continue;
-    const double mean = patch.residual / patch.weight;
-    const double expected = shared.patch_variances[k] + 1 / patch.weight;
-    const bool wrong = mean * mean > kSureSquare * expected;
-    const double variance = wrong ? mean * mean : shared.patch_variances[k];
-    spread += variance * patch.jacobian * patch.jacobian.transpose();
-  }
-  return spread;
+  return spreadOf(sumsOf(rows), shared);
 }
 
 std::vector<double> assignPatches(std::span<PlaneRow> rows, double patch_m, double plane_bias_m,

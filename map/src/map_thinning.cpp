@@ -26,15 +26,29 @@ struct Grid {
   int bits;        // of a voxel's number along an axis
 };
 
+struct Box {
+  explicit Box(const Point3f& p) : low(p), high(p) {}
+  void enclose(const Point3f& p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  Point3f low, high;
+};
+
 // The grid about zero, so that a cloud that was thinned already (VoxelAccumulator) falls into the
 // same voxels. Throws when a 21-bit number of voxels does not span the cloud.
-Grid gridAbout(const PointCloud& cloud, double edge, const std::string& name) {
-  Point3f low = cloud.points.front(), high = low;
-  for (const Point3f& p : cloud.points) {
-    low.x = std::min(low.x, p.x), high.x = std::max(high.x, p.x);
-    low.y = std::min(low.y, p.y), high.y = std::max(high.y, p.y);
-    low.z = std::min(low.z, p.z), high.z = std::max(high.z, p.z);
-  }
+Grid gridAbout(const PointCloud& cloud, double edge, tbb::task_arena& arena,
+               const std::string& name) {
+  std::vector<Box> boxes(chunkCount(cloud.size(), kChunk), Box(cloud.points.front()));
+  forEachChunk(arena, cloud.size(), kChunk,
+               [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+                 Box box(cloud.points[begin]);
+                 for (std::size_t i = begin; i < end; ++i) box.enclose(cloud.points[i]);
+                 boxes[chunk] = box;
+               });
+  Box whole = boxes.front();
+  for (const Box& box : boxes) whole.enclose(box.low), whole.enclose(box.high);
+  const Point3f &low = whole.low, &high = whole.high;
   const double span =
       static_cast<double>(std::max(high.x - low.x, std::max(high.y - low.y, high.z - low.z)));
   if (span / edge >= 2 * kVoxelLimit - 2) {
@@ -139,7 +153,8 @@ double curveVoxel(double voxel_m) { return voxel_m > 0 ? voxel_m : kOrderVoxelM;
 BlockedPoints thinAlongCurve(const PointCloud& cloud, double voxel_m, tbb::task_arena& arena,
                              const std::string& name) {
   const double edge = curveVoxel(voxel_m);
-  const RawArray<KeyedIndex> keyed = sortedKeys(cloud, edge, gridAbout(cloud, edge, name), arena);
+  const RawArray<KeyedIndex> keyed =
+      sortedKeys(cloud, edge, gridAbout(cloud, edge, arena, name), arena);
   const Runs runs(keyed, voxel_m > 0);
   std::vector<std::size_t> starts(chunkCount(keyed.size(), kChunk) + 1);
   forEachChunk(arena, keyed.size(), kChunk,

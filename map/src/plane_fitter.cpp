@@ -103,8 +103,8 @@ bool BlockFitter::fitOnKnownFace(std::size_t point, float radius_sq) {
     if (static_cast<float>(about.sums.count) <
         PlaneFit::kFaceShare * static_cast<float>(about.count))
       continue;
-    const PlaneMoments moments(about.sums);
-    const MapPlane plane = planeOf(moments, limits_);
+    if (thickerThan(limits_.clean_thickness_m * limits_.clean_thickness_m, about.sums)) continue;
+    const MapPlane plane = planeOf(PlaneMoments(about.sums), limits_);
     if (!plane.planar() || plane.thickness_m > clean_m_) continue;
     planes_[point] = plane;
     return true;

@@ -9,6 +9,7 @@
 #include "alignment_step.h"
 #include "median.h"
 #include "parallel_chunks.h"
+#include "patch_sums.h"
 #include "point_vector.h"
 #include "stopwatch.h"
 
@@ -279,11 +280,12 @@ void Registration::fillRows(const Pose& pose, double scale) {
                });
 }
 
-Mat6 Registration::spreadOfRows() {
+Registration::Shared Registration::sharedErrorsOfRows() {
   const SharedErrors errors{
       assignPatches(rows_, settings_.plane_patch_m, settings_.plane_bias_m, settings_.map_noise_m),
       settings_.range_bias_m};
-  return sharedSpread(rows_, errors);
+  const RowSums sums = sumsOf(rows_);
+  return {spreadOf(sums, errors), surfacePatches(sums)};
 }
 
 // The rows of every `step`-th match, without their robust weights.

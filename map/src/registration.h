@@ -14,6 +14,7 @@
 #include "paloc/map/matcher_settings.h"
 #include "paloc/map/prior_map.h"
 #include "paloc/map/scan_averaging.h"
+#include "paloc/map/surface_patches.h"
 
 namespace paloc {
 
@@ -64,9 +65,12 @@ class Registration {
 
   /// Rows of the last alignment, at its result.
   const std::vector<PlaneRow>& rows() const { return rows_; }
-  /// What the errors that these share add to the covariance of their gradient (sharedSpread);
-  /// gives each row its patch.
-  Mat6 spreadOfRows();
+  struct Shared {
+    Mat6 spread;  // sharedSpread()
+    std::vector<SurfacePatch> patches;
+  };
+  /// What the errors that these share do; gives each row its patch.
+  Shared sharedErrorsOfRows();
 
  private:
   // So small that the first steps, too, are shared among threads.

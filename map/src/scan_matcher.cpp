@@ -213,24 +213,21 @@ class ScanMatcher::Work {
     answer.refusal = gate(alignment, answer);
     if (!registration_.rows().empty()) {
       std::optional<DirectionObserver> observer;
-      Mat6 all_shared;
-      std::vector<SurfacePatch> patches;
+      Registration::Shared shared;
       tbb::parallel_invoke(
           [&] { observer.emplace(registration_.rows(), settings_.normal_noise_rad); },
-          [&] {
-            all_shared = registration_.spreadOfRows();
-            patches = surfacePatches(registration_.rows());
-          });
-      const ObservedDirections observed = observer->under(all_shared);
+          [&] { shared = registration_.sharedErrorsOfRows(); });
+      const ObservedDirections observed = observer->under(shared.spread);
       answer.directions = observed.directions;
       const bool handled = settings_.degeneracy_handling;
       const Mat6 information =
           handled ? observed.information : leastSquares(registration_.rows()).information;
-      const Mat6& spread = handled ? observed.shared_spread : all_shared;
+      const Mat6& spread = handled ? observed.shared_spread : shared.spread;
       answer.information = informationInMap(information, local.rotation);
       answer.shared_spread = informationInMap(spread, local.rotation);
-      keepWhatMatters(observer->information(), all_shared, settings_.plane_bias_m, patches);
-      if (answer.accepted()) addSurfaces(patches, local, answer);
+      keepWhatMatters(observer->information(), shared.spread, settings_.plane_bias_m,
+                      shared.patches);
+      if (answer.accepted()) addSurfaces(shared.patches, local, answer);
     }
     timing_.information_s = stopwatch.seconds();
   }

@@ -3,6 +3,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "patch_sums.h"
+
 namespace paloc {
 namespace {
 
@@ -10,27 +12,17 @@ constexpr double kMatters = 1e-3;
 
 }  // namespace
 
-// Normal and point are weighted like the gradient.
-std::vector<SurfacePatch> surfacePatches(std::span<const PlaneRow> rows) {
+std::vector<SurfacePatch> surfacePatches(const RowSums& sums) {
   std::vector<SurfacePatch> patches;
-  std::vector<double> weights;
-  for (const PlaneRow& row : rows) {
-    if (row.patch < 0) continue;
-    const auto k = static_cast<std::size_t>(row.patch);
-    patches.resize(std::max(patches.size(), k + 1));
-    weights.resize(patches.size());
-    const double weight = 1 / row.variance;
-    patches[k].gradient += weight * row.jacobian();
-    patches[k].normal += weight * row.normal_body;
-    patches[k].point += weight * row.point_body;
-    weights[k] += weight;
-  }
-  for (std::size_t k = 0; k < patches.size(); ++k) {
-    if (weights[k] <= 0) continue;
-    patches[k].normal.normalize();
-    patches[k].point /= weights[k];
+  for (const PatchSums& sum : sums.patches) {
+    if (sum.weight <= 0) continue;
+    patches.push_back({sum.gradient, sum.normal.normalized(), sum.point / sum.weight});
   }
   return patches;
+}
+
+std::vector<SurfacePatch> surfacePatches(std::span<const PlaneRow> rows) {
+  return surfacePatches(sumsOf(rows));
 }
 
 void keepWhatMatters(const Mat6& information, const Mat6& spread, double plane_bias_m,

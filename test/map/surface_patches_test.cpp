@@ -52,7 +52,7 @@ TEST(SurfacePatches, NoneMattersWithoutABias) {
   std::vector<SurfacePatch> patches = surfacePatches(rowsOnPlanes());
   keepWhatMatters(leastSquares(rowsOnPlanes()).information, Mat6::Zero(), 0, patches);
   EXPECT_TRUE(patches.empty());
-  EXPECT_TRUE(surfacePatches({}).empty());
+  EXPECT_TRUE(surfacePatches(std::span<const PlaneRow>()).empty());
 }
 
 }  // namespace

@@ -32,6 +32,7 @@ class PALOC_EXPORT SurfaceRegister {
     double distance_m = 0;
   };
   std::array<std::int64_t, 3> cellOf(const Vec3& point) const;
+  void searchCell(std::uint64_t key, const Vec3& normal, const Vec3& point, Found& found) const;
   Found nearest(const Vec3& normal, const Vec3& point) const;
 
   double reach_m_;
