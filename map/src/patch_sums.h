@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "paloc/map/map_information.h"
+#include "paloc/map/surface_patches.h"
 
 namespace paloc {
 
@@ -24,5 +25,8 @@ RowSums sumsOf(std::span<const PlaneRow> rows);
 
 /// sharedSpread() of these rows.
 Mat6 spreadOf(const RowSums& sums, const SharedErrors& shared);
+
+/// surfacePatches() of these rows.
+std::vector<SurfacePatch> surfacePatches(const RowSums& sums);
 
 }  // namespace paloc

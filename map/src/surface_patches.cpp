@@ -8,7 +8,7 @@
 namespace paloc {
 namespace {
 
-constexpr double kMatters = 1e-3;
+constexpr double kMatters = 1e-3;  // of the six variances of a pose, in their own units
 
 }  // namespace
 

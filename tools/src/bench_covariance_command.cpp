@@ -17,8 +17,8 @@ constexpr const char* kExample = R"(Example:
 
 Each seed is a recording and a map of its own, simulated, replayed and compared with the truth:
 NEES per degree of freedom is 1 where covariances are right. The bias of the map's surfaces is
-also what is configured (matcher.plane_bias_m), and so is the noise of the IMU (imu.*). A place is a scene of paloc synth, after a + with
-what is changed there since the survey.
+also what is configured (matcher.plane_bias_m), and so is the noise of the IMU (imu.*). A place is
+a scene of paloc synth, after a + with what is changed there since the survey.
 Exit codes: 0 done, 1 a seed gave no trajectory or an unusable covariance, 2 wrong usage.)";
 
 class BenchCovarianceCommand : public Command {

@@ -28,7 +28,7 @@ struct EstimatorSettings {
   double odometry_robust_width = 4.0;  ///< likewise of the odometry factor
 
   /// Way over which the errors that scans share fall to 1/e. Surfaces stay in view for longer, but
-  /// this is as far as smoothing reaches: with it, NEES of whole trajectories is 1 (README).
+  /// this is as far as smoothing reaches. The covariances of the result know better (README).
   double map_correlation_distance_m = 2.0;
 
   // Smoothing at the end associates scans with the map anew whose poses moved further than this,

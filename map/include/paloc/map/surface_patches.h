@@ -15,11 +15,8 @@ struct SurfacePatch {
   Vec3 point = Vec3::Zero();     ///< their centroid (m)
 };
 
-struct RowSums;
-
 /// The patches that rows lie on (assignPatches()), in the order of their numbers; normal and point
 /// are weighted like the gradient.
-std::vector<SurfacePatch> surfacePatches(const RowSums& sums);
 PALOC_EXPORT std::vector<SurfacePatch> surfacePatches(std::span<const PlaneRow> rows);
 
 /// Leaves of them those whose shift, of standard deviation `plane_bias_m`, matters to the pose: in
