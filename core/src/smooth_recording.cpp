@@ -36,7 +36,7 @@ std::vector<double> putMapFactors(const EstimatorSettings& settings,
     positions.push_back(nodes[k].state.T_map_body.position);
     has_map_factor.push_back(history[k].association.match.accepted());
   }
-  const std::vector<double> scans =
+  std::vector<double> scans =
       scansSharingErrors(positions, has_map_factor, settings.map_correlation_distance_m);
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     std::erase_if(nodes[k].node_factors, [](const NodeFactor& factor) {

@@ -74,7 +74,7 @@ class ScanMatcher::Work {
       guess.up_body = levelOfScan(scan.points_body, upOf(guess));
     }
     if (!guess.T_map_body) return search(scan, guess);
-    const MapMatch direct = locateFrom(scan, levelled(guess));
+    MapMatch direct = locateFrom(scan, levelled(guess));
     const bool sure = direct.accepted() && direct.explained >= kSurelyExplained;
     if (sure || !guess.search_around || !searchable(direct)) return direct;
     return theBetter(direct, search(scan, guess));

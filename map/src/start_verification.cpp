@@ -19,8 +19,8 @@ constexpr double kOffMapM = 0.15;  // this far from all map points is off its su
 // Standard deviations that the share of contradicting points, told from some of them, must stay
 // below its limit by.
 constexpr double kSure = 2;
-// Rays that graze a thick surface, or meet a passer-by in it, pass through points of the map: at
-// the right place in a map of scans up to an eighth of them.
+// Rays that graze a thick surface pass through points of it: at the right place in a map of scans
+// up to an eighth of them.
 constexpr double kMaxBlocked = 0.15;
 constexpr double kRefuted = 2, kRefutedBlocked = 0.2;  // times what may contradict; rays
 // Another place has things that this one has not, and lacks others: with the building's other
