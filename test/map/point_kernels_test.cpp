@@ -159,6 +159,10 @@ TEST(PointKernels, AllSetsGiveTheSameBytes) {
     EXPECT_EQ(c, d);
     EXPECT_EQ(c.indices[0] % 16 / 8, 0U);  // of every second block
     EXPECT_EQ(plain.sumsIn(points.all(), kRegion), other->sumsIn(points.all(), kRegion));
+    const NearestOf e = plain.nearest(blocks.data(), blocks.size(), kPlace),
+                    f = other->nearest(blocks.data(), blocks.size(), kPlace);
+    EXPECT_EQ(e.index, f.index);
+    EXPECT_EQ(e.distance_sq, f.distance_sq);
   }
 }
 
