@@ -18,7 +18,15 @@ namespace {
 constexpr double kMinGuessSigmaPosition = 0.03;  // m: registration may always correct this much
 constexpr double kMinGuessSigmaRotation = 0.01;  // rad
 constexpr double kBriefGap_s = 1.0;              // in which a platform does not stop or start
-constexpr double kFirstFrameInterval_s = 0.1;    // stands for the time since a frame that never was
+// Of a motion that only the IMU told: what it was is left to the estimator's own IMU factor.
+constexpr double kInertialSigma = 1;           // m, rad
+constexpr double kFirstFrameInterval_s = 0.1;  // stands for the time since a frame that never was
+
+// What the odometry's motion is off by, for itself: other than its own covariance has it, its
+// errors are then not those of the IMU.
+Mat6 ownCovariance(const OdometryFrame& frame) {
+  return frame.motion_covariance + kInertialSigma * kInertialSigma * frame.inertial_motion;
+}
 
 }  // namespace
 
@@ -64,7 +72,7 @@ void TrajectoryGenerator::addFrame(const OdometryFrame& frame) {
   const Pose T_odom_body = fromMrpt(frame.T_odom_body);
   if (!T_odom_body.position.allFinite() || !T_odom_body.rotation.allFinite()) {
     unused_.add("OdometryFrame", "estimator", "its pose is not finite");
-    motion_skipped_ += frame.motion_covariance;
+    motion_skipped_ += ownCovariance(frame);
     odometry_broken_ = odometry_broken_ || !frame.continues;
     return;
   }
@@ -83,7 +91,8 @@ void TrajectoryGenerator::addFrame(const OdometryFrame& frame) {
 OdometryFrame TrajectoryGenerator::sinceLastNode(const OdometryFrame& frame) const {
   OdometryFrame whole = frame;
   whole.continues = frame.continues && !odometry_broken_;
-  whole.motion_covariance += motion_skipped_;
+  whole.motion_covariance = ownCovariance(frame) + motion_skipped_;
+  whole.inertial_motion.setZero();
   return whole;
 }
 

@@ -18,6 +18,7 @@ void LioFilter::begin(const LioState& state, const LioMatrix& covariance) {
 
 void LioFilter::predict(const Preintegration& imu, const ImuNoise& noise) {
   T_odom_body_0_ = state_.T_odom_body;
+  inertial_motion_.setIdentity();
   covariance_0_ = covariance_.topLeftCorner<6, 6>();
   const LioMatrix F = lioTransition(state_, imu);
   cross_ = F * covariance_.leftCols<6>();
@@ -55,6 +56,7 @@ std::size_t LioFilter::update(const std::vector<MeasuredPoint>& points, const Fr
     agreement_.compare(boxminus(update.state(), state_).head<6>(),
                        update.gained().topLeftCorner<6, 6>());
   }
+  inertial_motion_ = openDirectionsOfMotion(T_odom_body_0_, update.open().topRows<6>());
   covariance_ = update.covariance();
   cross_ = update.updated(cross_);
   state_ = update.state();

@@ -26,6 +26,7 @@ class LioSamTracker : public InertialTracker {
 
   const Pose& T_odom_body() const override { return smoother_.state().T_odom_body; }
   Mat6 motionCovariance() const override { return smoother_.motionCovariance(); }
+  Mat6 inertialMotion() const override { return smoother_.inertialMotion(); }
   ScanMotion scanMotion() const override { return motionDuring(scan_, smoother_.state()); }
   ScanMotion firstScanMotion() const override { return motionDuring(first_.scan, first_.state); }
 

@@ -81,7 +81,10 @@ void TrackedOdometry::giveOutFrame(const LidarFrame& frame) {
       break;
   }
   result.continues = outcome != ScanTracker::Outcome::kBegun;
-  if (result.continues) result.motion_covariance = tracker_->motionCovariance();
+  if (result.continues) {
+    result.motion_covariance = tracker_->motionCovariance();
+    result.inertial_motion = tracker_->inertialMotion();
+  }
   result.T_odom_body = toMrpt(tracker_->T_odom_body());
   if (!first_) {
     const ScanMotion motion = tracker_->scanMotion();

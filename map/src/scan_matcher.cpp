@@ -28,6 +28,8 @@ namespace {
 
 constexpr double kSurelyExplained = 0.98;  // of a scan: elsewhere it cannot fit much better
 constexpr double kNearM = 1, kNearRad = 0.25;
+// From one patch of a surface to the next: their radii.
+constexpr double kNextPatch = 2;
 constexpr double kOutsideShare = 0.1;  // of the points near any map point, below: outside the map
 // Of the matched points, so many are enough to compare two spectra, and so many neighbours for a
 // normal.
@@ -43,7 +45,7 @@ class ScanMatcher::Work {
         arena_(std::max(settings.threads, 1)),
         registration_(*map_, settings_, arena_),
         finder_(*map_, settings_),
-        surfaces_(settings.plane_patch_m) {}
+        surfaces_(kNextPatch * settings.plane_patch_m) {}
 
   /// All work in one visit to the threads.
   template <typename Body>

@@ -67,7 +67,8 @@ struct Simulation {
   EstimatorSettings settings;
   bool with_imu = true, with_odometry = true, with_initial_pose = true;
   double duration_s = 20;
-  double odometry_scale = 1;  // of its positions
+  double odometry_scale = 1;      // of its positions
+  bool inertial_along_x = false;  // of the map: there only the IMU tells the odometry's motion
 
   Simulation() {
     motion.bias_acc = Vec3(0.03, -0.02, 0.05);
@@ -100,6 +101,11 @@ struct Simulation {
     frame.T_odom_body.z(odometry_scale * frame.T_odom_body.z());
     frame.continues = with_odometry && f > 1;
     frame.motion_covariance.diagonal() << Vec3::Constant(1e-4), Vec3::Constant(1e-5);
+    if (inertial_along_x) {
+      Vec6 along_x = Vec6::Zero();
+      along_x.head<3>() = motion.pose((f - 1) * kFrame_s).rotation.transpose() * Vec3::UnitX();
+      frame.inertial_motion = along_x * along_x.transpose();
+    }
     auto scan = std::make_shared<Scan>();
     scan->end_ns = frame.t_ns;
     frame.scan = scan;
@@ -160,6 +166,29 @@ TEST(TrajectoryGenerator, WorksWithoutImuOrWithoutOdometry) {
   const Result b = without_odometry.run();
   ASSERT_EQ(b.trajectory.size(), 200u);
   EXPECT_LT(without_odometry.rmse(b.trajectory), 0.5 * kMapSigma_m);
+}
+
+// A LiDAR-inertial odometry in a tunnel: along it, it says what the IMU says, and its velocity is
+// wrong by the same for long.
+TEST(TrajectoryGenerator, TakesNothingFromMotionsThatOnlyTheImuTold) {
+  Simulation simulation;
+  simulation.matcher->available = [](double t) { return t < 6 || t > 10; };
+  simulation.odometry_scale = 0.8;
+  const auto errorAndSigma = [&](bool told) {
+    simulation.inertial_along_x = told;
+    double error = 0, ratio = 0;
+    for (const TrajectoryPoint& p : simulation.run().trajectory) {
+      const double off =
+          p.T_map_body.x() - simulation.motion.pose(secondsBetween(0, p.t_ns)).position.x();
+      error = std::max(error, std::abs(off));
+      ratio = std::max(ratio, std::abs(off) / std::sqrt(p.covariance(0, 0)));
+    }
+    return std::pair(error, ratio);
+  };
+  const auto [error, ratio] = errorAndSigma(true);
+  EXPECT_LT(error, 0.03);
+  EXPECT_LT(ratio, 4);
+  EXPECT_GT(errorAndSigma(false).first, 2 * error) << "else this test tests nothing";
 }
 
 TEST(TrajectoryGenerator, FlagsDegenerateDirections) {

@@ -121,6 +121,21 @@ double sigmaInATunnel(const test::SmoothMotion& motion, const ImuBuffer& imu, bo
   return std::sqrt(smoother.motionCovariance().topLeftCorner<3, 3>().trace());
 }
 
+TEST_F(InertialSmootherTest, TellsWhatOfTheMotionIsTheImus) {
+  smoother_.begin(0, stateOf(motion_, 0), {.sigma_velocity_mps = 0.1});
+  step(1, poseMeasured(stateOf(motion_, 0.1), 5e-4));
+  EXPECT_TRUE(smoother_.inertialMotion().isZero());
+  const Mat3 R_before = smoother_.state().T_odom_body.rotation;
+  FeatureMeasurement measured = poseMeasured(stateOf(motion_, 0.2), 5e-4);
+  measured.information(0, 0) = 0;  // odom x
+  measured.open = NullDirections<9>::Zero(9, 2);
+  measured.open.col(0).head<3>() = measured.open.col(1).tail<3>() = Vec3::UnitX();
+  step(2, measured);
+  Vec6 along_x = Vec6::Zero();  // in the body frame of the node before
+  along_x.head<3>() = R_before.transpose() * Vec3::UnitX();
+  EXPECT_TRUE(smoother_.inertialMotion().isApprox(along_x * along_x.transpose(), 1e-3));
+}
+
 TEST_F(InertialSmootherTest, AnOpenDirectionThatWaversDoesNotTieThePositionDown) {
   const double told = sigmaInATunnel(motion_, imu_, true);
   const double not_told = sigmaInATunnel(motion_, imu_, false);

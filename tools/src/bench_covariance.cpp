@@ -33,7 +33,7 @@ synth::SynthSettings synthSettings(const BenchCovarianceSettings& settings,
 class PlaceRun {
  public:
   // One recording, made, replayed and compared with its truth.
-  void add(synth::SynthSettings synth, const Config& config) {
+  void add(synth::SynthSettings synth, const std::string& frontend, const Config& config) {
     const TemporaryFolder folder;
     synth.folder = folder.path();
     writeRecording(synth, [](double, const std::string&) {});
@@ -41,6 +41,7 @@ class PlaceRun {
     ReplayOptions options;
     options.log_file = folder.path() / "recording.rawlog";
     options.map_file = folder.path() / "map.ply";
+    options.frontend = frontend;
     options.initial = StartGuess::near(toMrpt(truth.front().pose));
     const std::atomic<bool> interrupt{false};
     const ReplayOutcome outcome = replay(options, config, interrupt, [](const ReplayProgress&) {});
@@ -94,7 +95,8 @@ BenchCovarianceResult benchCovariance(const BenchCovarianceSettings& settings, C
   for (const std::string& place : settings.places) {
     PlaceRun run;
     for (unsigned seed = 0; seed < settings.seeds; ++seed) {
-      run.add(synthSettings(settings, place, settings.first_seed + seed), config);
+      run.add(synthSettings(settings, place, settings.first_seed + seed), settings.frontend,
+              config);
       progress(static_cast<double>(++done) / static_cast<double>(runs));
     }
     result.places.emplace_back(place, run.result());

@@ -28,6 +28,8 @@ class BenchCovarianceCommand : public Command {
     app_->add_option("--places", settings_.places, "where")->delimiter(',')->capture_default_str();
     app_->add_option("--sensor", settings_.sensor, "LiDAR, as of paloc synth")
         ->capture_default_str();
+    app_->add_option("--frontend", settings_.frontend, "odometry front-end, as of paloc replay")
+        ->capture_default_str();
     app_->add_option("--seeds", settings_.seeds, "recordings of each place")
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();

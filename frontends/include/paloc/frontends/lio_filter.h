@@ -63,6 +63,9 @@ class PALOC_EXPORT LioFilter {
   /// larger.
   Mat6 motionCovariance() const;
 
+  /// What of that motion only the IMU told (see OdometryFrame::inertial_motion).
+  const Mat6& inertialMotion() const { return inertial_motion_; }
+
   /// By how much the variance of the IMU's noise was raised (see ImuAgreement).
   double imuFactor() const { return agreement_.imuFactor(); }
 
@@ -75,6 +78,7 @@ class PALOC_EXPORT LioFilter {
   Pose T_odom_body_0_;
   Mat6 covariance_0_ = Mat6::Zero();
   Eigen::Matrix<double, lio::kDim, 6> cross_ = Eigen::Matrix<double, lio::kDim, 6>::Zero();
+  Mat6 inertial_motion_ = Mat6::Identity();
   ImuAgreement agreement_;
   std::vector<PlacedPoint> placed_;
 };

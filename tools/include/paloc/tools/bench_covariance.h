@@ -16,6 +16,7 @@ struct BenchCovarianceSettings {
   /// Scenes of paloc synth, each with what is changed there after "+": "building+missing-part".
   std::vector<std::string> places{"building", "corridor-30", "building+missing-part"};
   std::string sensor = "vlp-16";
+  std::string frontend = "recorded";
   unsigned seeds = 50;
   std::uint64_t first_seed = 1;
   double duration_s = 40;
