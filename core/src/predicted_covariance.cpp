@@ -6,7 +6,8 @@
 namespace paloc {
 namespace {
 
-constexpr double kTurn_radps = 1.0;  // of a platform that nothing watches
+constexpr double kTurn_radps = 1.0;   // of a platform that nothing watches
+constexpr double kUnknownMotion = 1;  // m, rad: far above what an IMU leaves unknown
 
 }  // namespace
 
@@ -16,6 +17,10 @@ Mat6 unmeasuredMotion(double dt_s, const EstimatorSettings& settings) {
   Vec6 variances;
   variances << Vec3::Constant(position * position), Vec3::Constant(rotation * rotation);
   return variances.asDiagonal();
+}
+
+Mat6 independentMotion(const OdometryFrame& frame) {
+  return frame.motion_covariance + kUnknownMotion * kUnknownMotion * frame.inertial_motion;
 }
 
 Mat6 predictedCovariance(const StateMatrix& last, double dt_s, MotionSource source,

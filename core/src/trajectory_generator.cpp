@@ -6,9 +6,9 @@
 #include "paloc/core/lost_nodes.h"
 #include "paloc/core/measured_up.h"
 #include "paloc/core/mrpt_pose.h"
-#include "paloc/core/pose_flags.h"
 #include "paloc/core/predict_state.h"
 #include "paloc/core/predicted_covariance.h"
+#include "paloc/core/scan_correction.h"
 #include "paloc/core/start_prior.h"
 #include "paloc/core/trajectory_point.h"
 
@@ -18,15 +18,7 @@ namespace {
 constexpr double kMinGuessSigmaPosition = 0.03;  // m: registration may always correct this much
 constexpr double kMinGuessSigmaRotation = 0.01;  // rad
 constexpr double kBriefGap_s = 1.0;              // in which a platform does not stop or start
-// Of a motion that only the IMU told: what it was is left to the estimator's own IMU factor.
-constexpr double kInertialSigma = 1;           // m, rad
-constexpr double kFirstFrameInterval_s = 0.1;  // stands for the time since a frame that never was
-
-// What the odometry's motion is off by, for itself: other than its own covariance has it, its
-// errors are then not those of the IMU.
-Mat6 ownCovariance(const OdometryFrame& frame) {
-  return frame.motion_covariance + kInertialSigma * kInertialSigma * frame.inertial_motion;
-}
+constexpr double kFirstFrameInterval_s = 0.1;    // stands for the time since a frame that never was
 
 }  // namespace
 
@@ -72,7 +64,7 @@ void TrajectoryGenerator::addFrame(const OdometryFrame& frame) {
   const Pose T_odom_body = fromMrpt(frame.T_odom_body);
   if (!T_odom_body.position.allFinite() || !T_odom_body.rotation.allFinite()) {
     unused_.add("OdometryFrame", "estimator", "its pose is not finite");
-    motion_skipped_ += ownCovariance(frame);
+    motion_skipped_ += independentMotion(frame);
     odometry_broken_ = odometry_broken_ || !frame.continues;
     return;
   }
@@ -91,7 +83,7 @@ void TrajectoryGenerator::addFrame(const OdometryFrame& frame) {
 OdometryFrame TrajectoryGenerator::sinceLastNode(const OdometryFrame& frame) const {
   OdometryFrame whole = frame;
   whole.continues = frame.continues && !odometry_broken_;
-  whole.motion_covariance = ownCovariance(frame) + motion_skipped_;
+  whole.motion_covariance = independentMotion(frame) + motion_skipped_;
   whole.inertial_motion.setZero();
   return whole;
 }
@@ -173,7 +165,8 @@ void TrajectoryGenerator::advance(const OdometryFrame& frame) {
   FrameDiagnostics row;
   row.t_ns = frame.t_ns;
   row.scan_start_ns = frame.scan ? frame.scan->start_ns : frame.t_ns;
-  row.match = askMap(frame, last, node.state, imu.has_value());
+  row.match = askMap(imu ? withScanDeskewedAnew(frame, last, node.state) : frame, last, node.state,
+                     imu.has_value());
   if (row.match.accepted()) {
     few_points_.check(last.state.T_map_body, node.state.T_map_body, row.match);
   } else {
@@ -353,57 +346,6 @@ RepairCounts TrajectoryGenerator::repairsSoFar() const {
   RepairCounts sum = repairs_;
   sum += smoother_.repairs();
   return sum;
-}
-
-std::vector<TrajectoryPoint> TrajectoryGenerator::takeOnline() {
-  if (start_.pending()) return {};
-  const auto from = online_.begin() + static_cast<std::ptrdiff_t>(online_taken_);
-  online_taken_ = online_.size();
-  return {from, online_.end()};
-}
-
-const FrameDiagnostics* TrajectoryGenerator::lastFrame() const {
-  return diagnostics_.empty() ? nullptr : &diagnostics_.back();
-}
-
-std::optional<NodeEstimate> TrajectoryGenerator::newest() const {
-  if (history_.empty()) return std::nullopt;
-  return smoother_.newest();
-}
-
-Result TrajectoryGenerator::finish(Smoothing smoothing) {
-  if (start_.pending() && !start_.confirmedEnough()) dropStart();
-  collect(smoother_.window(true));
-  setFlags(online_);
-  Result result;
-  if (smoothing == Smoothing::kBatch) {
-    smoothRecording(settings_, *matcher_, timer_, history_, result);
-  }
-  if (result.trajectory.empty() && !online_.empty()) {
-    result.batch_failed = smoothing == Smoothing::kBatch;
-    result.trajectory = online_;
-  } else {
-    setFlags(result.trajectory);  // by the associations as they are now
-  }
-  result.online = online_;
-  result.diagnostics = diagnostics_;
-  result.repairs = repairsSoFar();
-  result.frames_before_start =
-      history_.empty() ? diagnostics_.size() : history_[0].diagnostics_index;
-  if (result.trajectory.empty()) {
-    result.no_trajectory_reason =
-        diagnostics_.empty() ? "the recording gave no odometry frame: no scan could be used"
-                             : start_.reason();
-  }
-  return result;
-}
-
-void TrajectoryGenerator::setFlags(std::vector<TrajectoryPoint>& points) const {
-  std::vector<bool> has_map_factor;
-  for (const HistoryNode& entry : history_) {
-    has_map_factor.push_back(entry.association.match.accepted());
-  }
-  setPoseFlags(has_map_factor, settings_, points);
 }
 
 }  // namespace paloc

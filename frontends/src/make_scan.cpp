@@ -2,8 +2,8 @@
 
 namespace paloc {
 
-std::shared_ptr<const Scan> makeScan(const LidarFrame& frame, const ScanMotion* motion,
-                                     RangeLimits limits, UnusedCounts& unused) {
+std::shared_ptr<Scan> makeScan(const LidarFrame& frame, const ScanMotion* motion,
+                               RangeLimits limits, UnusedCounts& unused) {
   const auto count = [&](const char* reason, std::size_t number) {
     unused.add(frame.class_name, frame.label, reason, number);
   };

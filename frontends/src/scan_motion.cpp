@@ -38,6 +38,7 @@ ScanMotion::ScanMotion(const ScanMotionInput& input)
   if (end_ns_ > start_ns_) {
     if (input.imu.size() >= 2 && input.up_body_end) {
       integrateImu(input);
+      by_imu_ = true;
     } else if (input.odometry.size() >= 2) {
       followOdometry(input);
     } else if (input.v_body_start) {

@@ -2,6 +2,7 @@
 
 #include "paloc/core/estimator_settings.h"
 #include "paloc/core/export.h"
+#include "paloc/core/odometry_frame.h"
 #include "paloc/core/state.h"
 
 namespace paloc {
@@ -9,6 +10,11 @@ namespace paloc {
 /// Covariance (6 x 6, tangent [position (m), rotation on the right (rad)]) of where a platform may
 /// have gone in `dt_s` seconds in which nothing measured its motion, about constant velocity.
 PALOC_EXPORT Mat6 unmeasuredMotion(double dt_s, const EstimatorSettings& settings);
+
+/// Covariance of the odometry's motion (OdometryFrame::motion_covariance) as far as its errors are
+/// its own: what only its IMU told, with errors that are those of the estimator's IMU factor, is as
+/// good as unknown.
+PALOC_EXPORT Mat6 independentMotion(const OdometryFrame& frame);
 
 /// What tells the motion since the last node.
 enum class MotionSource { kImu, kOdometry, kNone };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "paloc/core/time.h"
@@ -18,6 +19,10 @@ struct Scan {
   std::vector<std::uint16_t> returns = {};
   /// How long before `end_ns` each point was measured (s), where its time is known; else empty.
   std::vector<float> ages_s = {};
+  /// Of a scan that was deskewed by the gyroscope as it reads, its bias left in, and by the
+  /// accelerometer with a velocity from elsewhere: that velocity at `end_ns`, body frame (m/s).
+  /// Such a scan can be deskewed better (see deskewedAnew()).
+  std::optional<Vec3> v_body_assumed = {};
 };
 
 }  // namespace paloc

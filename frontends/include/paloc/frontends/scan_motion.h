@@ -44,6 +44,9 @@ class PALOC_EXPORT ScanMotion {
   /// Velocity at the end in the body frame there (m/s); nothing if no translation is known.
   const std::optional<Vec3>& vBodyEnd() const { return v_body_end_; }
 
+  /// Whether rotation and accelerations are those that an IMU measured.
+  bool byImu() const { return by_imu_; }
+
   double maxRate() const;  ///< rad/s
 
  private:
@@ -63,6 +66,7 @@ class PALOC_EXPORT ScanMotion {
 
   TimeNs start_ns_ = 0, end_ns_ = 0;
   std::vector<Knot> knots_;
+  bool by_imu_ = false;
   bool even_steps_ = false;  ///< odometry alone: rate and velocity are a knot's own until the next
   Pose T_end_start_;
   std::optional<Vec3> v_body_end_;
