@@ -121,7 +121,7 @@ class IteratedUpdate {
   static constexpr double kLeastGate = 0.1;                         // m
   static constexpr double kConvergedM = 3e-4, kConvergedRad = 1e-4;
   static constexpr std::size_t kMinRows = 20;
-  static constexpr int kLeastSharp = 8;  // steps without widening, before sigmas may settle it
+  static constexpr int kLeastSharp = 5;  // steps without widening, before sigmas may settle it
 
   IterationLimits limits_;
   bool converged_ = false;
