@@ -7,7 +7,7 @@
 
 #include "iterated_update.h"
 #include "motion_covariance.h"
-#include "points_on_planes.h"
+#include "settling_points.h"
 
 namespace paloc {
 namespace {
@@ -21,6 +21,7 @@ constexpr double kMisfit = 0.04;
 // And what the best bent chord leaves of it at the end of its scan, where the acceleration changes
 // as a walk's does (Hz): x''' dt^3 / 120, of a cubic beside the parabola that fits it best.
 constexpr double kChanges = 1.4, kLeftOfCubic = 2 * std::numbers::pi * kChanges / 120;
+constexpr double kSettledSigmas = 0.15;
 constexpr std::size_t kSlots = 32;  // rotations that stand for those during a scan
 
 using ChordUpdate = IteratedUpdate<ChordMotion, chord::kDim, 18>;
@@ -108,12 +109,13 @@ const std::vector<PlacedPoint>& IcpFilter::place(const std::vector<MeasuredPoint
 std::size_t IcpFilter::update(const std::vector<MeasuredPoint>& points, const Vec3& sensor_body,
                               const LocalVoxelMap& map, bool rigid) {
   const double ageing = rigid ? 0 : 1;
-  ChordUpdate update({limits_.max_iterations, limits_.max_gate_m});
+  before_update_ = {state_, covariance_, cross_};
+  ChordUpdate update({limits_.max_iterations, limits_.max_gate_m, kSettledSigmas});
   const auto place = [&](const ChordMotion& x) -> const std::vector<PlacedPoint>& {
     placePoints(points, sensor_body, x, ageing);
     return placed_;
   };
-  auto matches = pointsOnPlanes<18>(matches_, map, ageing, place);
+  auto matches = settlingPoints<18>(matches_, map, ageing, place);
   if (!update.run(state_, covariance_, rmsRange(points), matches, toMeasured)) {
     return matches_.size();
   }
@@ -124,6 +126,12 @@ std::size_t IcpFilter::update(const std::vector<MeasuredPoint>& points, const Ve
   addMisfit(kLeftOfCubic * dt_s_ * dt_s_ * dt_s_);
   cross_ = update.updated(cross_);
   return matches_.size();
+}
+
+void IcpFilter::takeBack() {
+  state_ = before_update_.state;
+  covariance_ = before_update_.covariance;
+  cross_ = before_update_.cross;
 }
 
 // The rotation's error is on the left here: an error e there is R^T e on the right.

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "paloc/frontends/weak_direction.h"
+
 namespace paloc {
 namespace {
 
@@ -28,14 +30,13 @@ IcpTracker::Outcome IcpTracker::add(const LidarFrame& frame, const ImuBuffer& /*
     StageScope stage(timer_, "thinning");
     selection_.select(frame, has_times, static_cast<std::size_t>(settings_.icp.map_points), nullptr,
                       map_points_);
-    points_ =
-        everyNth(map_points_, static_cast<std::size_t>(settings_.local_map.registration_points));
+    points_ = everyNth(map_points_, registrationPoints());
   }
   const double pause_s = secondsBetween(tracked_ns_, frame.stamp_ns);
   if (!begun_ || pause_s > settings_.local_map.max_gap_s || filter_.isLost()) return begin();
   filter_.predict(secondsBetween(last_end_ns, scan_.end_ns));
   if (!first_.points.empty()) startMoving();
-  const std::size_t matched = update();
+  const std::size_t matched = updateWithMorePoints();
   const auto wanted = static_cast<double>(points_.size());
   if (matched == 0 || static_cast<double>(matched) < kLeastMatched * wanted) {
     return Outcome::kCoasted;
@@ -79,6 +80,22 @@ void IcpTracker::startMoving() {
 std::size_t IcpTracker::update(bool rigid) {
   StageScope stage(timer_, "registration");
   return filter_.update(points_, sensor_body_, map_, rigid);
+}
+
+std::size_t IcpTracker::updateWithMorePoints() {
+  const std::size_t matched = update();
+  if (matched == 0) return 0;
+  const auto weak = weakDirection(filter_.normals());
+  if (!weak) return matched;
+  {
+    StageScope stage(timer_, "registration");
+    const auto more = pointsThatTell(*weak, filter_.place(map_points_, sensor_body_),
+                                     stepOf(map_points_.size(), registrationPoints()), map_);
+    if (more.empty()) return matched;
+    for (const std::uint32_t i : more) points_.push_back(map_points_[i]);
+    filter_.takeBack();
+  }
+  return update();
 }
 
 void IcpTracker::addToMap(const std::vector<MeasuredPoint>& points, bool rigid) {

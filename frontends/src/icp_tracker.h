@@ -39,6 +39,12 @@ class IcpTracker : public ScanTracker {
   Outcome begin();
   void startMoving();
   std::size_t update(bool rigid = false);
+  /// Where a direction is told by few points, again with all that tell it: which these are, the
+  /// first update tells.
+  std::size_t updateWithMorePoints();
+  std::size_t registrationPoints() const {
+    return static_cast<std::size_t>(settings_.local_map.registration_points);
+  }
   void addToMap(const std::vector<MeasuredPoint>& points, bool rigid = false);
   static ScanMotion motionDuring(const KeptScan& scan, const ChordMotion& state);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -21,6 +22,9 @@ double displacementSigma(const Eigen::Matrix<double, D, D>& covariance, double l
 struct IterationLimits {
   int max_iterations = 20;
   double max_gate_m = 0.5;
+  /// A step that is so small in the sigmas of the result settles it, too; 0: only one that is small
+  /// in itself.
+  double settled_sigmas = 0;
 };
 
 /// The update of an iterated error-state Kalman filter with the points of a scan, each onto its
@@ -52,6 +56,7 @@ class IteratedUpdate {
     const double gate = std::min(limits_.max_gate_m, 3 * deviation + kLeastGate);
     double widening = std::min(deviation, gate);
     converged_ = false;
+    int sharp = 0;
     std::optional<InformativePart<N>> informative;
     information_.setZero();
     for (int i = 0; i < limits_.max_iterations && !converged_; ++i) {
@@ -74,8 +79,7 @@ class IteratedUpdate {
       if (!step.allFinite()) return false;
       state_ = boxplus(state_, step);
       gradient_ = gradient + information_ * step;
-      converged_ = widening == 0 && step.template head<3>().norm() < kConvergedM &&
-                   step.template segment<3>(3).norm() < kConvergedRad;
+      if (widening == 0) converged_ = isSmall(step) || (++sharp >= kLeastSharp && isSure(step));
       widening = widening < kLeastWidening ? 0 : kNarrowing * widening;
     }
     covariance_ = update_.covariance();
@@ -103,11 +107,21 @@ class IteratedUpdate {
   const Directions& open() const { return open_; }
 
  private:
+  static bool isSmall(const Vector& step) {
+    return step.template head<3>().norm() < kConvergedM &&
+           step.template segment<3>(3).norm() < kConvergedRad;
+  }
+  bool isSure(const Vector& step) const {
+    const double sigmas = limits_.settled_sigmas;
+    return sigmas > 0 && step.dot(update_.covariance().ldlt().solve(step)) < sigmas * sigmas;
+  }
+
   static constexpr double kLeastWidening = 0.01, kNarrowing = 0.3;  // m; a step
   static constexpr double kVoxelsOfWidening = 1.5;                  // while the pose is not sure
   static constexpr double kLeastGate = 0.1;                         // m
   static constexpr double kConvergedM = 3e-4, kConvergedRad = 1e-4;
   static constexpr std::size_t kMinRows = 20;
+  static constexpr int kLeastSharp = 5;  // steps without widening, before sigmas may settle it
 
   IterationLimits limits_;
   bool converged_ = false;

@@ -21,7 +21,8 @@ void PlaneMatches::associate(std::span<const PlacedPoint> points, const LocalVox
                              double gate_m, double least_voxel_m) {
   rows_.clear();
   LocalPlane plane;
-  for (const PlacedPoint& p : points) {
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    const PlacedPoint& p = points[i];
     if (!map.find(p.point_odom, p.ray, plane, least_voxel_m)) continue;
     if (plane.leverFactor(p.point_odom) > kMaxLeverFactor) continue;
     const double residual = plane.height(p.point_odom);
@@ -29,11 +30,21 @@ void PlaneMatches::associate(std::span<const PlacedPoint> points, const LocalVox
     const double across = plane.normal.dot(p.ray);
     if (across * across < kMinIncidenceCosine * kMinIncidenceCosine * p.ray.squaredNorm()) continue;
     rows_.push_back({{plane.normal, p.lever, p.age_s, p.sag_s2, residual},
+                     plane.normal.dot(plane.centroid),
+                     i,
                      plane.thickness_m,
                      plane.width_m,
                      static_cast<double>(plane.points)});
   }
   setDeviations();
+}
+
+void PlaneMatches::move(std::span<const PlacedPoint> points) {
+  for (Row& row : rows_) {
+    const PlacedPoint& p = points[row.index];
+    const Vec3 normal = row.point.normal;
+    row.point = {normal, p.lever, p.age_s, p.sag_s2, normal.dot(p.point_odom) - row.offset};
+  }
 }
 
 // The thickness of a plane with few points is drawn to the usual one, lest those that are thin by
@@ -64,13 +75,13 @@ double PlaneMatches::robustScale() {
   return std::max(kLeastScale, kMadToSigma * *middle);
 }
 
-void PlaneMatches::weigh(double widening_m) {
+void PlaneMatches::weigh(double widening_m, double unsure_m) {
   const double scale = robustScale();
   for (Row& row : rows_) {
     const double variance = scale * scale * row.sigma * row.sigma;
     const double width_sq = kKernel * kKernel * (variance + widening_m * widening_m);
     const double root = 1 + row.point.residual * row.point.residual / width_sq;
-    row.weight = 1 / (root * root * variance);
+    row.weight = 1 / (root * root * (variance + unsure_m * unsure_m));
   }
 }
 
@@ -88,6 +99,12 @@ Eigen::Matrix<double, N, N> PlaneMatches::normalNoise(double ageing) const {
     noise.addNormalNoise(row.point, row.weight, row.normal_variance, ageing);
   }
   return noise.information;
+}
+
+Mat3 PlaneMatches::normals() const {
+  Mat3 sum = Mat3::Zero();
+  for (const Row& row : rows_) sum += row.point.normal * row.point.normal.transpose();
+  return sum;
 }
 
 template PALOC_EXPORT PointToPlaneSums<9> PlaneMatches::sums<9>(double) const;

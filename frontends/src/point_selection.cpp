@@ -42,8 +42,12 @@ void PointSelection::add(const LidarFrame& frame, bool has_times, std::uint32_t 
 
 // An odd step: scans come column by column, and one that divides the number of rings would take
 // the same rings again and again.
+std::size_t stepOf(std::size_t points, std::size_t wanted) {
+  return ((points + wanted / 2) / wanted) | 1U;
+}
+
 std::vector<MeasuredPoint> everyNth(const std::vector<MeasuredPoint>& points, std::size_t wanted) {
-  const std::size_t step = ((points.size() + wanted / 2) / wanted) | 1U;
+  const std::size_t step = stepOf(points.size(), wanted);
   std::vector<MeasuredPoint> result;
   for (std::size_t i = 0; i < points.size(); i += step) result.push_back(points[i]);
   return result;

@@ -48,8 +48,30 @@ TEST(IcpFilter, FindsVelocitiesInTheDistortionOfOneScan) {
   EXPECT_LT(normalized, 50) << "of 18 degrees of freedom";
 }
 
-TEST(IcpFilter, FindsTheBendOfTheWay) {
+TEST(IcpFilter, TakesAnUpdateBack) {
   const test::Walls room({0, 1, 2});
+  ChordMotion start;
+  start.v_odom = Vec3(1, 0, 0);
+  IcpFilter filter({}, {});
+  filter.begin({}, sure(1.5, 1));
+  filter.predict(kDt);
+  const ChordMotion predicted = filter.state();
+  const ChordMatrix covariance = filter.covariance();
+  const Mat6 of_motion = filter.motionCovariance();
+  const auto points = seenInMotion(room.points, continued(start, kDt));
+  filter.update(points, Vec3::Zero(), room.map);
+  const ChordMotion found = filter.state();
+  EXPECT_GT(boxminus(found, predicted).norm(), 0.05);
+  filter.takeBack();
+  EXPECT_EQ(boxminus(filter.state(), predicted).norm(), 0);
+  EXPECT_EQ(filter.covariance(), covariance);
+  EXPECT_EQ(filter.motionCovariance(), of_motion);
+  filter.update(points, Vec3::Zero(), room.map);
+  EXPECT_LT(boxminus(filter.state(), found).norm(), 1e-15);
+}
+
+TEST(IcpFilter, FindsTheBendOfTheWay) {
+  const test::Walls room({0, 1, 2}, 3.1);  // not where voxels meet
   ChordMotion end;
   end.duration_s = kDt;
   end.acceleration_odom = Vec3(3, -2, 0);

@@ -51,6 +51,10 @@ class PALOC_EXPORT IcpFilter {
   /// registration did not settle: then the state is its best guess, no surer than the prediction.
   std::size_t update(const std::vector<MeasuredPoint>& points, const Vec3& sensor_body,
                      const LocalVoxelMap& map, bool rigid = false);
+  /// Takes the last update back.
+  void takeBack();
+  /// Sum of n n^T over the planes' normals that the points of the last update had.
+  Mat3 normals() const { return matches_.normals(); }
 
   /// Where the state puts the points of a scan; `rigid` as above. Valid until the next call.
   const std::vector<PlacedPoint>& place(const std::vector<MeasuredPoint>& points,
@@ -61,6 +65,8 @@ class PALOC_EXPORT IcpFilter {
   Mat6 motionCovariance() const;
 
  private:
+  using Cross = Eigen::Matrix<double, chord::kDim, 6>;
+
   /// Of the pose, in a second squared of the unevenness.
   void addMisfit(double misfit_s2);
   void placePoints(const std::vector<MeasuredPoint>& points, const Vec3& sensor_body,
@@ -75,7 +81,12 @@ class PALOC_EXPORT IcpFilter {
   // The pose before it, and E[error of the state now . error of that pose].
   Pose T_odom_body_0_;
   Mat6 covariance_0_ = Mat6::Zero();
-  Eigen::Matrix<double, chord::kDim, 6> cross_ = Eigen::Matrix<double, chord::kDim, 6>::Zero();
+  Cross cross_ = Cross::Zero();
+  struct {
+    ChordMotion state;
+    ChordMatrix covariance = ChordMatrix::Zero();
+    Cross cross = Cross::Zero();
+  } before_update_;
   std::vector<PlacedPoint> placed_;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -29,12 +30,16 @@ class PALOC_EXPORT PlaneMatches {
 
   void associate(std::span<const PlacedPoint> points, const LocalVoxelMap& map, double gate_m,
                  double least_voxel_m = 0);
+  /// Leaves every point on the plane that it has: the points where another state puts them, all of
+  /// them and in the same order.
+  void move(std::span<const PlacedPoint> points);
   std::size_t size() const { return rows_.size(); }
 
   /// Sets the weights, 1 / variance times that of the kernel of Geman and McClure. `widening_m` is
   /// added to the kernel's width: at first, while the pose is not sure. Variances are multiplied
-  /// by that of the residuals, robustly told, in units of what is expected of them.
-  void weigh(double widening_m);
+  /// by that of the residuals, robustly told, in units of what is expected of them. `unsure_m` is a
+  /// standard deviation that every residual has besides.
+  void weigh(double widening_m, double unsure_m = 0);
 
   /// Normal equations of all rows (see jacobianOf for `ageing`).
   template <int N>
@@ -42,10 +47,14 @@ class PALOC_EXPORT PlaneMatches {
   /// What the noise of normals alone would give.
   template <int N>
   Eigen::Matrix<double, N, N> normalNoise(double ageing) const;
+  /// Sum of n n^T over the normals of all rows.
+  Mat3 normals() const;
 
  private:
   struct Row {
     PointToPlane point;
+    double offset = 0;                                  // n . c
+    std::uint32_t index = 0;                            // of the point
     double thickness = 0, width = 1, plane_points = 1;  // of the plane
     double sigma = 1, normal_variance = 0;  // of the residual (m), of the normal (rad^2)
     double weight = 0;

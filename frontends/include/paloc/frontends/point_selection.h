@@ -32,7 +32,8 @@ class PALOC_EXPORT PointSelection {
   std::vector<Point3f> candidates_;
 };
 
-/// Every so many-th of the points, so that about `wanted` are left.
+/// Every stepOf()-th of the points, the first included, so that about `wanted` are left.
+PALOC_EXPORT std::size_t stepOf(std::size_t points, std::size_t wanted);
 PALOC_EXPORT std::vector<MeasuredPoint> everyNth(const std::vector<MeasuredPoint>& points,
                                                  std::size_t wanted);
 
