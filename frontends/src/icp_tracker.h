@@ -26,6 +26,7 @@ class IcpTracker : public ScanTracker {
   Mat6 motionCovariance() const override { return filter_.motionCovariance(); }
   ScanMotion scanMotion() const override { return motionDuring(scan_, filter_.state()); }
   ScanMotion firstScanMotion() const override { return motionDuring(first_.scan, first_.state); }
+  bool usesImu() const override { return false; }
   std::size_t mapBytes() const override { return map_.bytes(); }
   std::string whyRefused() const override { return "no point within range"; }
   std::string whoseMotionWhereCoasted() const override { return "a guess"; }

@@ -87,10 +87,24 @@ void TrackedOdometry::giveOutFrame(const LidarFrame& frame) {
   }
   result.T_odom_body = toMrpt(tracker_->T_odom_body());
   if (!first_) {
-    const ScanMotion motion = tracker_->scanMotion();
+    const ScanMotion motion = withImu(frame, tracker_->scanMotion());
     result.scan = scanOf(frame, deskew ? &motion : nullptr);
   }
   events_.emplace_back(std::move(result));
+}
+
+// How the body turned and sped up during a scan an IMU tells better than the scan itself, where the
+// tracker knows of none.
+ScanMotion TrackedOdometry::withImu(const LidarFrame& frame, const ScanMotion& by_tracker) const {
+  if (tracker_->usesImu()) return by_tracker;
+  ScanMotionInput input;
+  input.start_ns = frame.stamp_ns;
+  input.end_ns = frame.endNs();
+  input.imu = intake_.imu().covering(input.start_ns, input.end_ns);
+  input.up_body_end = intake_.imu().upAt(input.end_ns);
+  if (input.imu.empty() || !input.up_body_end) return by_tracker;
+  input.odometry = {{input.start_ns, by_tracker.bodyAt(input.start_ns)}, {input.end_ns, Pose{}}};
+  return ScanMotion(input);
 }
 
 // The event of the first frame lies among the others, without its scan.
@@ -111,6 +125,8 @@ std::shared_ptr<const Scan> TrackedOdometry::scanOf(const LidarFrame& frame,
   auto scan =
       makeScan(frame, motion, {settings_.min_range_m, settings_.max_range_m}, intake_.unused());
   counts_.with_scan += scan != nullptr;
+  const bool improvable = motion && motion->byImu() && !tracker_->usesImu();
+  if (scan && improvable && !scan->ages_s.empty()) scan->v_body_assumed = motion->vBodyEnd();
   return scan;
 }
 

@@ -50,6 +50,26 @@ TEST(IcpOdometry, TheFirstScanIsDeskewedByWhatTheSecondTells) {
       << "taken as at rest it would be 0.15 m";
 }
 
+// The odometry knows of no IMU, but its scans are deskewed by one where there is one.
+TEST(IcpOdometry, ScansAreDeskewedByTheImuWhereThereIsOne) {
+  const test::Path path = [](double t) {
+    const Vec3 turn(0.06 * std::sin(20 * t), 0.06 * std::cos(17 * t), 0.8 * std::sin(1.5 * t));
+    return Pose{Vec3(0.5 * std::sin(t), 0, 0.02 * std::sin(12 * t)), so3::exp(turn)};
+  };
+  const auto worst = [&](bool with_imu) {
+    const Output output = runIcp(recordingOf(path, 30, with_imu));
+    double off = 0;
+    for (std::size_t i = 5; i < output.frames.size(); ++i) {
+      const OdometryFrame& frame = output.frames[i];
+      EXPECT_EQ(frame.scan->v_body_assumed.has_value(), with_imu) << "may be improved on";
+      off =
+          std::max(off, test::worstOffWall({}, path(seconds(frame.t_ns)), frame.scan->points_body));
+    }
+    return off;
+  };
+  EXPECT_LT(worst(true), 0.4 * worst(false));
+}
+
 TEST(IcpOdometry, GivesOutTheImuForTheEstimator) {
   const Output output = runIcp(recordingOf(test::sway(), 8));
   EXPECT_EQ(output.frames.size(), 8U);

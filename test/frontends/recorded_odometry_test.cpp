@@ -44,6 +44,7 @@ TEST(RecordedOdometry, FramesAtScanEndsAmongTheImuSamples) {
     EXPECT_EQ(frame.scan->start_ns, kT0 + static_cast<TimeNs>(i) * kScan);
     EXPECT_LT(test::worstOffWall(test::BoxRoom{}, truth(frame.t_ns), frame.scan->points_body),
               3e-3);
+    EXPECT_TRUE(frame.scan->v_body_assumed) << "an estimator may know better";
   }
   EXPECT_TRUE(
       output.noted("LiDAR 'lidar' (CObservationLidarScan): points have times, ns after the "
@@ -188,6 +189,7 @@ TEST(RecordedOdometry, WithoutImuTheOdometryDeskews) {
   EXPECT_TRUE(output.frames[4].continues);
   const Scan& scan = *output.frames[2].scan;
   EXPECT_LT(test::worstOffWall(test::BoxRoom{}, truth(scan.end_ns), scan.points_body), 1e-3);
+  EXPECT_FALSE(scan.v_body_assumed) << "the estimator can do no better";
   EXPECT_TRUE(output.noted("there is no IMU that can be used"));
 }
 

@@ -41,6 +41,8 @@ class PALOC_EXPORT ScanTracker {
   virtual ScanMotion scanMotion() const = 0;
   /// The same of the first scan of a stretch, once the second was added.
   virtual ScanMotion firstScanMotion() const = 0;
+  /// Whether scanMotion() is by the IMU's samples; else those may tell it better.
+  virtual bool usesImu() const { return true; }
   virtual std::size_t mapBytes() const = 0;
   /// Which columns of the scans it wants, besides points and times.
   virtual LidarColumns columns() const { return {}; }
