@@ -131,7 +131,8 @@ CaseResult registerOnce(ScanMatcher& matcher, const Case& one) {
 
 void summarize(const std::vector<Case>& cases, const std::vector<CaseResult>& results,
                RegistrationRun& run) {
-  std::vector<double> match, cpu, filter, association, solve, information, spectrum, error, turn;
+  std::vector<double> match, cpu, filter, association, solve, information, pose, spectrum, error,
+      turn;
   const double share = 1 / static_cast<double>(cases.size());
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const CaseResult& r = results[i];
@@ -141,6 +142,7 @@ void summarize(const std::vector<Case>& cases, const std::vector<CaseResult>& re
     association.push_back(r.association_ms);
     solve.push_back(r.solve_ms);
     information.push_back(r.information_ms);
+    pose.push_back(r.association_ms + r.solve_ms + r.information_ms);
     spectrum.push_back(r.spectrum_ms);
     run.points_in += share * static_cast<double>(cases[i].scan.points_body.size());
     run.points_used += share * r.match.points;
@@ -159,6 +161,7 @@ void summarize(const std::vector<Case>& cases, const std::vector<CaseResult>& re
   run.association_ms = quantilesOf(association);
   run.solve_ms = quantilesOf(solve);
   run.information_ms = quantilesOf(information);
+  run.pose_ms = quantilesOf(pose);
   run.spectrum_ms = quantilesOf(spectrum);
   run.error_m = quantilesOf(error);
   run.error_rad = quantilesOf(turn);

@@ -20,6 +20,7 @@ Json jsonOf(const RegistrationRun& r) {
   json["association_ms"] = jsonOf(r.association_ms);
   json["solve_ms"] = jsonOf(r.solve_ms);
   json["information_ms"] = jsonOf(r.information_ms);
+  json["pose_ms"] = jsonOf(r.pose_ms);
   json["spectrum_ms"] = jsonOf(r.spectrum_ms);
   json["error_m"] = jsonOf(r.error_m);
   json["error_rad"] = jsonOf(r.error_rad);
@@ -68,6 +69,7 @@ std::string tableOf(const std::vector<RegistrationRun>& runs) {
       appendQuantiles(out, "  association", r.association_ms, 1);
       appendQuantiles(out, "  solve", r.solve_ms, 1);
       appendQuantiles(out, "  information", r.information_ms, 1);
+      appendQuantiles(out, "  these three together", r.pose_ms, 1);
       appendQuantiles(out, "  spectrum", r.spectrum_ms, 1);
       appendQuantiles(out, "on processors (ms)", r.cpu_ms, 1);
       appendQuantiles(out, "error (mm)", r.error_m, 1e3);
