@@ -44,6 +44,7 @@ void IcpFilter::begin(const ChordMotion& state, const ChordMatrix& covariance) {
 void IcpFilter::predict(double dt_s) {
   dt_s_ = dt_s;
   T_odom_body_0_ = state_.T_odom_body;
+  open_motion_.setIdentity();
   covariance_0_ = covariance_.topLeftCorner<6, 6>();
   state_.acceleration_odom = state_.angular_acceleration_body = Vec3::Zero();
   const ChordMatrix F = continuedTransition(state_, dt_s);
@@ -122,6 +123,9 @@ std::size_t IcpFilter::update(const std::vector<MeasuredPoint>& points, const Ve
   state_ = update.state();
   // The best guess, but no more sure than the prediction was.
   if (!update.converged()) return 0;
+  Eigen::Matrix<double, 6, Eigen::Dynamic> open = update.open().topRows<6>();
+  open.bottomRows<3>() = (state_.T_odom_body.rotation.transpose() * open.bottomRows<3>()).eval();
+  open_motion_ = openDirectionsOfMotion(T_odom_body_0_, open);
   covariance_ = update.covariance();
   addMisfit(kLeftOfCubic * dt_s_ * dt_s_ * dt_s_);
   cross_ = update.updated(cross_);
@@ -132,6 +136,7 @@ void IcpFilter::takeBack() {
   state_ = before_update_.state;
   covariance_ = before_update_.covariance;
   cross_ = before_update_.cross;
+  open_motion_.setIdentity();
 }
 
 // The rotation's error is on the left here: an error e there is R^T e on the right.

@@ -24,6 +24,7 @@ class IcpTracker : public ScanTracker {
 
   const Pose& T_odom_body() const override { return filter_.state().T_odom_body; }
   Mat6 motionCovariance() const override { return filter_.motionCovariance(); }
+  Mat6 inertialMotion() const override { return filter_.openMotion(); }
   ScanMotion scanMotion() const override { return motionDuring(scan_, filter_.state()); }
   ScanMotion firstScanMotion() const override { return motionDuring(first_.scan, first_.state); }
   bool usesImu() const override { return false; }

@@ -83,7 +83,7 @@ void TrackedOdometry::giveOutFrame(const LidarFrame& frame) {
   result.continues = outcome != ScanTracker::Outcome::kBegun;
   if (result.continues) {
     result.motion_covariance = tracker_->motionCovariance();
-    result.inertial_motion = tracker_->inertialMotion();
+    if (imuCovers(frame)) result.inertial_motion = tracker_->inertialMotion();
   }
   result.T_odom_body = toMrpt(tracker_->T_odom_body());
   if (!first_) {
@@ -91,6 +91,11 @@ void TrackedOdometry::giveOutFrame(const LidarFrame& frame) {
     result.scan = scanOf(frame, deskew ? &motion : nullptr);
   }
   events_.emplace_back(std::move(result));
+}
+
+// Without an IMU in the estimator the tracker's guess, with its covariance, is all there is.
+bool TrackedOdometry::imuCovers(const LidarFrame& frame) const {
+  return tracker_->usesImu() || !intake_.imu().covering(frame.stamp_ns, frame.endNs()).empty();
 }
 
 // How the body turned and sped up during a scan an IMU tells better than the scan itself, where the

@@ -93,7 +93,10 @@ TEST(IcpFilter, WhatIsOpenGoesOnAsItWas) {
   filter.begin(start, covariance);
   filter.predict(kDt);
   const ChordMatrix before = filter.covariance();
+  EXPECT_TRUE(filter.openMotion().isIdentity()) << "as long as no scan has told";
   filter.update(seenInMotion(corridor.points, continued(start, kDt)), Vec3::Zero(), corridor.map);
+  const Vec6 along_x = Vec6::Unit(0);
+  EXPECT_TRUE(filter.openMotion().isApprox(along_x * along_x.transpose(), 0.02));
   const ChordMatrix after = filter.covariance();
   EXPECT_NEAR(filter.state().T_odom_body.position.x(), 0.1, 0.01);
   EXPECT_GT(after(chord::kPosition, chord::kPosition), 0.98 * before(0, 0));

@@ -63,6 +63,8 @@ class PALOC_EXPORT IcpFilter {
   /// Covariance of the motion T_0^-1 T_1 since the prediction, in the tangent space [position in
   /// body frame 0 (m), rotation on the right (rad)], T_0 as it was estimated then.
   Mat6 motionCovariance() const;
+  /// What of that motion no scan told, but the prediction (see OdometryFrame::inertial_motion).
+  const Mat6& openMotion() const { return open_motion_; }
 
  private:
   using Cross = Eigen::Matrix<double, chord::kDim, 6>;
@@ -80,7 +82,7 @@ class PALOC_EXPORT IcpFilter {
   double dt_s_ = 0;  // of the last prediction
   // The pose before it, and E[error of the state now . error of that pose].
   Pose T_odom_body_0_;
-  Mat6 covariance_0_ = Mat6::Zero();
+  Mat6 covariance_0_ = Mat6::Zero(), open_motion_ = Mat6::Identity();
   Cross cross_ = Cross::Zero();
   struct {
     ChordMotion state;

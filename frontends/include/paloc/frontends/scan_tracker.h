@@ -35,7 +35,7 @@ class PALOC_EXPORT ScanTracker {
   virtual const Pose& T_odom_body() const = 0;
   /// Of the motion since the last frame (see OdometryFrame).
   virtual Mat6 motionCovariance() const = 0;
-  /// What of that motion only the IMU told (see OdometryFrame::inertial_motion).
+  /// What of that motion only the prediction told (see OdometryFrame::inertial_motion).
   virtual Mat6 inertialMotion() const { return Mat6::Zero(); }
   /// How the body moved during the scan that was added last, in poses of the odom frame.
   virtual ScanMotion scanMotion() const = 0;
