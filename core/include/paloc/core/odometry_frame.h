@@ -24,7 +24,8 @@ struct OdometryFrame {
   /// Sum of e e^T over the directions e of the motion (6, orthonormal, in the same tangent space)
   /// that only the IMU told, or a guess, because the scan left them open or could not be used: the
   /// errors of such motions go on from frame to frame, as those of the velocity do, and the
-  /// estimator takes nothing from them, but what it has of the IMU itself. Zero where there is none.
+  /// estimator takes nothing from them, but what it has of the IMU itself. Zero where there is
+  /// none.
   Mat6 inertial_motion = Mat6::Zero();
   std::shared_ptr<const Scan> scan;  ///< may be null: a frame without a usable scan
 };

@@ -41,7 +41,7 @@ struct RegistrationRun {
   ScanQuantiles match_ms;  ///< association, solve, information and spectrum together
   ScanQuantiles cpu_ms;    ///< filter and match on the processor, all threads together
   ScanQuantiles filter_ms, association_ms, solve_ms, information_ms, spectrum_ms;
-  ScanQuantiles pose_ms;  ///< association, solve and information together
+  ScanQuantiles pose_ms;                         ///< association, solve and information together
   ScanQuantiles error_m, error_rad;              ///< of the accepted
   double load_s = 0;                             ///< from the file to the ready map, all included
   double sort_s = 0, index_s = 0, planes_s = 0;  ///< parts of it
