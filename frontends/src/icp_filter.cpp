@@ -32,6 +32,13 @@ ChordUpdate::ToMeasured toMeasured(const ChordMotion&) {
 
 double square(double x) { return x * x; }
 
+// The rotation's error is on the left here: an error e there is R^T e on the right.
+Mat6 onTheRight(const Pose& pose) {
+  Mat6 turn = Mat6::Identity();
+  turn.block<3, 3>(3, 3) = pose.rotation.transpose();
+  return turn;
+}
+
 }  // namespace
 
 void IcpFilter::begin(const ChordMotion& state, const ChordMatrix& covariance) {
@@ -123,9 +130,8 @@ std::size_t IcpFilter::update(const std::vector<MeasuredPoint>& points, const Ve
   state_ = update.state();
   // The best guess, but no more sure than the prediction was.
   if (!update.converged()) return 0;
-  Eigen::Matrix<double, 6, Eigen::Dynamic> open = update.open().topRows<6>();
-  open.bottomRows<3>() = (state_.T_odom_body.rotation.transpose() * open.bottomRows<3>()).eval();
-  open_motion_ = openDirectionsOfMotion(T_odom_body_0_, open);
+  open_motion_ = openDirectionsOfMotion(
+      T_odom_body_0_, onTheRight(state_.T_odom_body) * update.open().topRows<6>());
   covariance_ = update.covariance();
   addMisfit(kLeftOfCubic * dt_s_ * dt_s_ * dt_s_);
   cross_ = update.updated(cross_);
@@ -139,13 +145,7 @@ void IcpFilter::takeBack() {
   open_motion_.setIdentity();
 }
 
-// The rotation's error is on the left here: an error e there is R^T e on the right.
 Mat6 IcpFilter::motionCovariance() const {
-  const auto onTheRight = [](const Pose& pose) {
-    Mat6 turn = Mat6::Identity();
-    turn.block<3, 3>(3, 3) = pose.rotation.transpose();
-    return turn;
-  };
   const Mat6 turn_0 = onTheRight(T_odom_body_0_), turn = onTheRight(state_.T_odom_body);
   return covarianceOfMotion(T_odom_body_0_, state_.T_odom_body,
                             turn_0 * covariance_0_ * turn_0.transpose(),

@@ -2,8 +2,8 @@
 
 namespace paloc {
 
-std::shared_ptr<Scan> makeScan(const LidarFrame& frame, const ScanMotion* motion,
-                               RangeLimits limits, UnusedCounts& unused) {
+std::shared_ptr<const Scan> makeScan(const LidarFrame& frame, const ScanMotion* motion,
+                                     RangeLimits limits, UnusedCounts& unused) {
   const auto count = [&](const char* reason, std::size_t number) {
     unused.add(frame.class_name, frame.label, reason, number);
   };
@@ -16,6 +16,9 @@ std::shared_ptr<Scan> makeScan(const LidarFrame& frame, const ScanMotion* motion
                                             : placeOnBody(frame, limits, dropped));
   count("points nearer than min_range_m", dropped.too_near);
   count("points beyond max_range_m", dropped.too_far);
+  if (motion && motion->byImu() && !scan->ages_s.empty()) {
+    scan->v_body_assumed = motion->vBodyEnd();
+  }
   if (!scan->points_body.empty()) return scan;
   count("scan without a point within range", 1);
   return nullptr;

@@ -10,9 +10,7 @@ std::shared_ptr<const Scan> RecordedOdometry::scanOf(const LidarFrame& frame) {
     return makeScan(frame, nullptr, limits, intake_.unused());
   }
   const ScanMotion motion = motionDuring(frame);
-  const std::shared_ptr<Scan> scan = makeScan(frame, &motion, limits, intake_.unused());
-  if (scan && !scan->ages_s.empty() && motion.byImu()) scan->v_body_assumed = motion.vBodyEnd();
-  return scan;
+  return makeScan(frame, &motion, limits, intake_.unused());
 }
 
 ScanMotion RecordedOdometry::motionDuring(const LidarFrame& frame) {

@@ -80,22 +80,16 @@ void TrackedOdometry::giveOutFrame(const LidarFrame& frame) {
     case ScanTracker::Outcome::kTracked:
       break;
   }
-  result.continues = outcome != ScanTracker::Outcome::kBegun;
-  if (result.continues) {
-    result.motion_covariance = tracker_->motionCovariance();
-    if (imuCovers(frame)) result.inertial_motion = tracker_->inertialMotion();
-  }
   result.T_odom_body = toMrpt(tracker_->T_odom_body());
   if (!first_) {
     const ScanMotion motion = withImu(frame, tracker_->scanMotion());
+    result.continues = true;
+    result.motion_covariance = tracker_->motionCovariance();
+    // Without an IMU in the estimator the tracker's guess, with its covariance, is all there is.
+    if (tracker_->usesImu() || motion.byImu()) result.inertial_motion = tracker_->inertialMotion();
     result.scan = scanOf(frame, deskew ? &motion : nullptr);
   }
   events_.emplace_back(std::move(result));
-}
-
-// Without an IMU in the estimator the tracker's guess, with its covariance, is all there is.
-bool TrackedOdometry::imuCovers(const LidarFrame& frame) const {
-  return tracker_->usesImu() || !intake_.imu().covering(frame.stamp_ns, frame.endNs()).empty();
 }
 
 // How the body turned and sped up during a scan an IMU tells better than the scan itself, where the
@@ -130,8 +124,6 @@ std::shared_ptr<const Scan> TrackedOdometry::scanOf(const LidarFrame& frame,
   auto scan =
       makeScan(frame, motion, {settings_.min_range_m, settings_.max_range_m}, intake_.unused());
   counts_.with_scan += scan != nullptr;
-  const bool improvable = motion && motion->byImu() && !tracker_->usesImu();
-  if (scan && improvable && !scan->ages_s.empty()) scan->v_body_assumed = motion->vBodyEnd();
   return scan;
 }
 

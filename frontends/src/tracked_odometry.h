@@ -38,7 +38,6 @@ class TrackedOdometry : public OdometryFrontend {
   void giveOutImu(TimeNs until_ns);
   void giveOutFrame(const LidarFrame& frame);
   void releaseFirst();
-  bool imuCovers(const LidarFrame& frame) const;
   ScanMotion withImu(const LidarFrame& frame, const ScanMotion& by_tracker) const;
   std::shared_ptr<const Scan> scanOf(const LidarFrame& frame, const ScanMotion* motion);
   void noteAtEnd();
