@@ -16,6 +16,7 @@ namespace {
 // too small by a fifth at most.
 constexpr double kSignalToNoise = 2;
 constexpr double kFullShare = 0.005;
+constexpr double kFewRows = 50;  // below it they may be wrong together
 constexpr double kFull = 0.95, kNone = 0.05;
 
 // How the other kind follows a motion of this one: other = follow * own. What noise alone would
@@ -53,7 +54,7 @@ double factorOf(const MatchDirection& direction) {
 // the rows alone: shared errors blur them, since a bias of the range turns the weakest axis towards
 // whatever the bias moves most.
 void observeKind(const SupportRows& rows, const Mat6& geometry, DirectionKind own,
-                 std::array<MatchDirection, 6>& directions) {
+                 const MotionCheck& holds, std::array<MatchDirection, 6>& directions) {
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(schurComplement(geometry, own));
   const Mat3 follow = followingMotion(rows, geometry, own);
   std::array<double, 3> counts{};
@@ -73,6 +74,10 @@ void observeKind(const SupportRows& rows, const Mat6& geometry, DirectionKind ow
     direction.probability = informativeProbability(support);
     direction.agreement = support.unweighted > 0 ? support.signal / support.unweighted : 0;
     counts[static_cast<std::size_t>(i)] = support.count;
+    if (holds && direction.probability > kNone && support.effectiveRows() < kFewRows &&
+        !holds(motions[static_cast<std::size_t>(i)])) {
+      direction.probability = 0;
+    }
   }
   const double largest = std::max({counts[0], counts[1], counts[2], 1.0});
   for (std::size_t i = 0; i < 3; ++i) {
@@ -105,11 +110,12 @@ void attenuateKind(DirectionKind own, const std::array<MatchDirection, 6>& direc
 
 }  // namespace
 
-DirectionObserver::DirectionObserver(std::span<const PlaneRow> rows, double normal_noise_rad)
+DirectionObserver::DirectionObserver(std::span<const PlaneRow> rows, double normal_noise_rad,
+                                     const MotionCheck& holds)
     : geometry_(leastSquares(rows).information) {
   const SupportRows support(rows, normal_noise_rad);
   for (const DirectionKind own : {DirectionKind::kPosition, DirectionKind::kRotation}) {
-    observeKind(support, geometry_, own, directions_);
+    observeKind(support, geometry_, own, holds, directions_);
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "alignment_step.h"
 #include "median.h"
+#include "motion_probe.h"
 #include "parallel_chunks.h"
 #include "patch_sums.h"
 #include "point_vector.h"
@@ -236,6 +237,11 @@ std::array<MatchDirection, 6> Registration::glimpse(const Pose& pose, double sca
   return allFull(observed) || step == 1 ? observed : look(1);
 }
 
+bool Registration::holds(const Motion& motion) const {
+  return MotionProbe(planes_, matches_, result_.pose, result_.scale, result_.gate, arena_)
+      .holds(motion);
+}
+
 void Registration::summarize(double scale, Alignment& alignment) {
   alignment.near = near_;
   alignment.matched = static_cast<int>(matched_.size());
@@ -313,6 +319,7 @@ Alignment Registration::align(const Pose& start, const AlignSchedule& schedule) 
   } else {
     associate(pose, schedule.gate_m, alignment.iterations, 1);
   }
+  result_ = {pose, scale, association_.gate};
   fillRows(pose, scale);
   summarize(scale, alignment);
   return alignment;

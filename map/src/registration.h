@@ -69,6 +69,8 @@ class Registration {
 
   /// Rows of the last alignment, at its result.
   const std::vector<PlaneRow>& rows() const { return rows_; }
+  /// Whether the points would lie worse with the body moved from there (motion_probe.h).
+  bool holds(const Motion& motion) const;
   struct Shared {
     Mat6 spread;  // sharedSpread()
     std::vector<SurfacePatch> patches;
@@ -113,7 +115,11 @@ class Registration {
     double gate = 0;
   } association_;
   std::uint32_t alignments_ = 0;  // so far
-  std::vector<PlaneRow> rows_;    // one per matched point
+  struct {
+    Pose pose;
+    double scale = 1, gate = 0;
+  } result_;                    // of the last alignment
+  std::vector<PlaneRow> rows_;  // one per matched point
   std::vector<float> scratch_;
   int near_ = 0;
 };

@@ -217,7 +217,10 @@ class ScanMatcher::Work {
       std::optional<DirectionObserver> observer;
       Registration::Shared shared;
       tbb::parallel_invoke(
-          [&] { observer.emplace(registration_.rows(), settings_.normal_noise_rad); },
+          [&] {
+            observer.emplace(registration_.rows(), settings_.normal_noise_rad,
+                             [this](const Motion& motion) { return registration_.holds(motion); });
+          },
           [&] { shared = registration_.sharedErrorsOfRows(); });
       const ObservedDirections observed = observer->under(shared.spread);
       answer.directions = observed.directions;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <span>
 
 #include "paloc/core/export.h"
@@ -9,6 +10,14 @@
 #include "paloc/map/map_information.h"
 
 namespace paloc {
+
+/// A small motion: translation v (m) and rotation w (rad) in the body frame.
+struct Motion {
+  Vec3 v = Vec3::Zero(), w = Vec3::Zero();
+};
+
+/// Whether the scan would lie worse on the map with the body moved along a motion, to either side.
+using MotionCheck = std::function<bool(const Motion&)>;
 
 /// The six directions of a pose as the map sees them, and the information that is left when the
 /// weak ones have been scaled down.
@@ -50,7 +59,9 @@ PALOC_EXPORT ObservedDirections observeDirections(std::span<const PlaneRow> rows
 /// The same in two parts. The first is all that takes time and needs no spread.
 class PALOC_EXPORT DirectionObserver {
  public:
-  DirectionObserver(std::span<const PlaneRow> rows, double normal_noise_rad);
+  /// Of a direction that hangs on a handful of rows `holds` is asked, if there is one.
+  DirectionObserver(std::span<const PlaneRow> rows, double normal_noise_rad,
+                    const MotionCheck& holds = {});
   /// Of the rows as independent ones (leastSquares), nothing scaled down.
   const Mat6& information() const { return geometry_; }
   /// Without their sigmas.

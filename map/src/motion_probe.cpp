@@ -1,0 +1,87 @@
+#include "motion_probe.h"
+
+#include <array>
+#include <cmath>
+
+#include "parallel_chunks.h"
+
+namespace paloc {
+namespace {
+
+constexpr std::array kProbesM = {0.03, 0.06, 0.1, 0.15};
+constexpr double kKernel = 3;         // as that of the registration
+constexpr double kSeesMotion = 1;     // in sigmas: what moves a residual by less says nothing
+constexpr double kSignificant = 2.5;  // standard deviations of the sum of changes
+
+double robust(double z) { return z * z / (1 + z * z / (kKernel * kKernel)); }
+
+// Of the points, the root mean square of how far the motion moves them.
+double lengthOf(const Motion& motion, const PlaneSearch& planes) {
+  double sum = 0;
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    sum += (motion.v + motion.w.cross(planes.point(i))).squaredNorm();
+  }
+  return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(planes.size(), 1)));
+}
+
+Pose movedBy(const Pose& pose, const Motion& motion) {
+  return {pose.position + pose.rotation * motion.v, pose.rotation * so3::exp(motion.w)};
+}
+
+}  // namespace
+
+MotionProbe::Change MotionProbe::changeOf(std::size_t begin, std::size_t end, const Motion& moved,
+                                          const Pose& pose) const {
+  std::array<Correspondence, PlaneSearch::kMost> there;
+  std::array<Correspondence*, PlaneSearch::kMost> sought{};
+  for (std::size_t i = begin; i < end; ++i) {
+    there[i - begin] = matches_[i];
+    there[i - begin].searched_at = pose * planes_.point(i);
+    sought[i - begin] = &there[i - begin];
+  }
+  planes_.search(std::span(sought).first(end - begin), pose, within_m_);
+  Change change;
+  for (std::size_t i = begin; i < end; ++i) {
+    const Correspondence& here = matches_[i];
+    Correspondence& match = there[i - begin];
+    const bool here_planar = here.planar && here.near && here.distance <= within_m_;
+    if (!here_planar || !match.planar) continue;
+    planes_.measure(match, i, match.searched_at, pose.rotation);
+    const Vec3 m = pose.rotation * (moved.v + moved.w.cross(planes_.point(i)));
+    const double sigma = scale_ * std::min(here.sigma, match.sigma);
+    const double seen = std::max(std::abs(here.normal.dot(m)), std::abs(match.normal.dot(m)));
+    if (seen < kSeesMotion * sigma) continue;
+    const double worse = robust(match.residual / (scale_ * match.sigma)) -
+                         robust(here.residual / (scale_ * here.sigma));
+    change.sum += worse;
+    change.squares += worse * worse;
+  }
+  return change;
+}
+
+bool MotionProbe::worseBy(const Motion& motion, double length) const {
+  const Motion moved{length * motion.v, length * motion.w};
+  const Pose pose = movedBy(pose_, moved);
+  std::vector<Change> parts(chunkCount(planes_.size(), PlaneSearch::kMost));
+  forEachChunk(arena_, planes_.size(), PlaneSearch::kMost,
+               [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+                 parts[chunk] = changeOf(begin, end, moved, pose);
+               });
+  Change all;
+  for (const Change& part : parts) {
+    all.sum += part.sum;
+    all.squares += part.squares;
+  }
+  return all.sum > kSignificant * std::sqrt(all.squares);
+}
+
+bool MotionProbe::holds(const Motion& motion) const {
+  const double length = lengthOf(motion, planes_);
+  if (length <= 0) return false;
+  for (const double probe_m : kProbesM) {
+    if (!worseBy(motion, probe_m / length) || !worseBy(motion, -probe_m / length)) return false;
+  }
+  return true;
+}
+
+}  // namespace paloc

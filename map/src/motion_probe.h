@@ -1,0 +1,51 @@
+#pragma once
+
+#include <tbb/task_arena.h>
+
+#include <span>
+#include <vector>
+
+#include "paloc/core/pose.h"
+#include "paloc/map/degeneracy.h"
+#include "plane_search.h"
+
+namespace paloc {
+
+/// Asks whether a scan would lie worse on the map with the body moved, its planes sought anew
+/// there. A few points at an edge are matched with whatever face is near and then seem to hold the
+/// body; but moved, they lie as well on other faces.
+class MotionProbe {
+ public:
+  /// `matches` are those at the pose, one a point, and `scale` that of their sigmas (robust, at
+  /// least 1). All are to outlive the probe.
+  MotionProbe(const PlaneSearch& planes, std::span<const Correspondence> matches,
+              const Pose& T_local_body, double scale, double within_m, tbb::task_arena& arena)
+      : planes_(planes),
+        matches_(matches),
+        pose_(T_local_body),
+        scale_(scale),
+        within_m_(within_m),
+        arena_(arena) {}
+
+  /// Whether the scan lies clearly worse whichever way along the motion (body frame) it is moved,
+  /// by 3 to 15 cm at the points. Clearly: rho(z) = z^2 / (1 + z^2 / k^2), z the residual in
+  /// sigmas, k the kernel's width, the sum of its changes is positive and beyond 2.5 times the
+  /// root of the sum of their squares, over the points that have a plane in both places and see the
+  /// motion by either: six points can tell, when they all do.
+  bool holds(const Motion& motion) const;
+
+ private:
+  struct Change {
+    double sum = 0, squares = 0;
+  };
+  bool worseBy(const Motion& motion, double length) const;
+  Change changeOf(std::size_t begin, std::size_t end, const Motion& moved, const Pose& pose) const;
+
+  const PlaneSearch& planes_;
+  std::span<const Correspondence> matches_;
+  const Pose& pose_;
+  double scale_, within_m_;
+  tbb::task_arena& arena_;
+};
+
+}  // namespace paloc
