@@ -1,5 +1,6 @@
 #include "motion_probe.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -8,10 +9,14 @@
 namespace paloc {
 namespace {
 
-constexpr std::array kProbesM = {0.03, 0.06, 0.1, 0.15};
-constexpr double kKernel = 3;         // as that of the registration
-constexpr double kSeesMotion = 1;     // in sigmas: what moves a residual by less says nothing
-constexpr double kSignificant = 2.5;  // standard deviations of the sum of changes
+// How far the points are moved, and how many standard deviations the sum of changes must be then.
+// Near the pose, planes sought anew are noise for the most part.
+struct Probe {
+  double by_m, significant;
+};
+constexpr std::array kProbes = {Probe{0.03, 1}, Probe{0.06, 2}, Probe{0.1, 2}, Probe{0.15, 2}};
+constexpr double kKernel = 3;      // as that of the registration
+constexpr double kSeesMotion = 1;  // in sigmas: what moves a residual by less says nothing
 
 double robust(double z) { return z * z / (1 + z * z / (kKernel * kKernel)); }
 
@@ -59,7 +64,7 @@ MotionProbe::Change MotionProbe::changeOf(std::size_t begin, std::size_t end, co
   return change;
 }
 
-bool MotionProbe::worseBy(const Motion& motion, double length) const {
+bool MotionProbe::worseBy(const Motion& motion, double length, double significant) const {
   const Motion moved{length * motion.v, length * motion.w};
   const Pose pose = movedBy(pose_, moved);
   std::vector<Change> parts(chunkCount(planes_.size(), PlaneSearch::kMost));
@@ -72,16 +77,16 @@ bool MotionProbe::worseBy(const Motion& motion, double length) const {
     all.sum += part.sum;
     all.squares += part.squares;
   }
-  return all.sum > kSignificant * std::sqrt(all.squares);
+  return all.sum > significant * std::sqrt(all.squares);
 }
 
 bool MotionProbe::holds(const Motion& motion) const {
   const double length = lengthOf(motion, planes_);
   if (length <= 0) return false;
-  for (const double probe_m : kProbesM) {
-    if (!worseBy(motion, probe_m / length) || !worseBy(motion, -probe_m / length)) return false;
-  }
-  return true;
+  return std::all_of(kProbes.begin(), kProbes.end(), [&](const Probe& probe) {
+    return worseBy(motion, probe.by_m / length, probe.significant) &&
+           worseBy(motion, -probe.by_m / length, probe.significant);
+  });
 }
 
 }  // namespace paloc

@@ -38,7 +38,7 @@ class MotionProbe {
   struct Change {
     double sum = 0, squares = 0;
   };
-  bool worseBy(const Motion& motion, double length) const;
+  bool worseBy(const Motion& motion, double length, double significant) const;
   Change changeOf(std::size_t begin, std::size_t end, const Motion& moved, const Pose& pose) const;
 
   const PlaneSearch& planes_;
