@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "parallel_chunks.h"
 
@@ -15,6 +16,7 @@ struct Probe {
   double by_m, significant;
 };
 constexpr std::array kProbes = {Probe{0.03, 1}, Probe{0.06, 2}, Probe{0.1, 2}, Probe{0.15, 2}};
+constexpr double kClearlyBetter = 2;
 constexpr double kKernel = 3;      // as that of the registration
 constexpr double kSeesMotion = 1;  // in sigmas: what moves a residual by less says nothing
 
@@ -64,9 +66,7 @@ MotionProbe::Change MotionProbe::changeOf(std::size_t begin, std::size_t end, co
   return change;
 }
 
-bool MotionProbe::worseBy(const Motion& motion, double length, double significant) const {
-  const Motion moved{length * motion.v, length * motion.w};
-  const Pose pose = movedBy(pose_, moved);
+MotionProbe::Change MotionProbe::changeBy(const Motion& moved, const Pose& pose) const {
   std::vector<Change> parts(chunkCount(planes_.size(), PlaneSearch::kMost));
   forEachChunk(arena_, planes_.size(), PlaneSearch::kMost,
                [&](std::size_t chunk, std::size_t begin, std::size_t end) {
@@ -77,16 +77,26 @@ bool MotionProbe::worseBy(const Motion& motion, double length, double significan
     all.sum += part.sum;
     all.squares += part.squares;
   }
-  return all.sum > significant * std::sqrt(all.squares);
+  return all;
 }
 
-bool MotionProbe::holds(const Motion& motion) const {
+MotionProbe::Answer MotionProbe::ask(const Motion& motion) const {
   const double length = lengthOf(motion, planes_);
-  if (length <= 0) return false;
-  return std::all_of(kProbes.begin(), kProbes.end(), [&](const Probe& probe) {
-    return worseBy(motion, probe.by_m / length, probe.significant) &&
-           worseBy(motion, -probe.by_m / length, probe.significant);
-  });
+  Answer answer;
+  double least = -kClearlyBetter;
+  for (const Probe& probe : kProbes) {
+    for (const double by : {probe.by_m / length, -probe.by_m / length}) {
+      const Motion moved{by * motion.v, by * motion.w};
+      const Pose pose = movedBy(pose_, moved);
+      const double significance = changeBy(moved, pose).significance();
+      if (significance < probe.significant) answer.holds = false;
+      if (significance < least) {
+        least = significance;
+        answer.better = pose;
+      }
+    }
+  }
+  return answer;
 }
 
 }  // namespace paloc

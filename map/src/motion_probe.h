@@ -2,8 +2,9 @@
 
 #include <tbb/task_arena.h>
 
+#include <cmath>
+#include <optional>
 #include <span>
-#include <vector>
 
 #include "paloc/core/pose.h"
 #include "paloc/map/degeneracy.h"
@@ -28,17 +29,25 @@ class MotionProbe {
         arena_(arena) {}
 
   /// Whether the scan lies clearly worse whichever way along the motion (body frame) it is moved,
-  /// by 3 to 15 cm at the points. Clearly: rho(z) = z^2 / (1 + z^2 / k^2), z the residual in
-  /// sigmas, k the kernel's width, the sum of its changes is positive and beyond 2.5 times the
-  /// root of the sum of their squares, over the points that have a plane in both places and see the
-  /// motion by either: six points can tell, when they all do.
-  bool holds(const Motion& motion) const;
+  /// by 3 to 15 cm at the points; and where it lies clearly better.
+  ///
+  /// Clearly: of rho(z) = z^2 / (1 + z^2 / k^2), z the residual in sigmas, k the kernel's width,
+  /// the sum of the changes is beyond twice the root of the sum of their squares (near the pose,
+  /// where planes sought anew are noise for the most part, once), over the points that have a plane
+  /// in both places and see the motion by either. So four points can tell, when they all do.
+  struct Answer {
+    bool holds = true;
+    std::optional<Pose> better;
+  };
+  Answer ask(const Motion& motion) const;
 
  private:
   struct Change {
     double sum = 0, squares = 0;
+    /// In standard deviations.
+    double significance() const { return squares > 0 ? sum / std::sqrt(squares) : 0; }
   };
-  bool worseBy(const Motion& motion, double length, double significant) const;
+  Change changeBy(const Motion& moved, const Pose& pose) const;
   Change changeOf(std::size_t begin, std::size_t end, const Motion& moved, const Pose& pose) const;
 
   const PlaneSearch& planes_;

@@ -8,7 +8,6 @@
 
 #include "alignment_step.h"
 #include "median.h"
-#include "motion_probe.h"
 #include "parallel_chunks.h"
 #include "patch_sums.h"
 #include "point_vector.h"
@@ -237,9 +236,9 @@ std::array<MatchDirection, 6> Registration::glimpse(const Pose& pose, double sca
   return allFull(observed) || step == 1 ? observed : look(1);
 }
 
-bool Registration::holds(const Motion& motion) const {
+MotionProbe::Answer Registration::probe(const Motion& motion) const {
   return MotionProbe(planes_, matches_, result_.pose, result_.scale, result_.gate, arena_)
-      .holds(motion);
+      .ask(motion);
 }
 
 void Registration::summarize(double scale, Alignment& alignment) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "matched_lanes.h"
+#include "motion_probe.h"
 #include "paloc/core/map_matcher.h"
 #include "paloc/core/pose.h"
 #include "paloc/map/degeneracy.h"
@@ -69,8 +70,8 @@ class Registration {
 
   /// Rows of the last alignment, at its result.
   const std::vector<PlaneRow>& rows() const { return rows_; }
-  /// Whether the points would lie worse with the body moved from there (motion_probe.h).
-  bool holds(const Motion& motion) const;
+  /// Whether the points would lie worse with the body moved from there.
+  MotionProbe::Answer probe(const Motion& motion) const;
   struct Shared {
     Mat6 spread;  // sharedSpread()
     std::vector<SurfacePatch> patches;

@@ -63,7 +63,10 @@ class ScanMatcher::Work {
         .max_iterations = settings_.max_iterations,
         .start_sigma_m = sigma_position};
     const Alignment alignment = registration_.align(toLocal(guess), schedule);
-    tbb::parallel_invoke([&] { fill(alignment, answer); }, [&] { addSpectrum(answer.spectrum); });
+    std::optional<Pose> better;
+    tbb::parallel_invoke([&] { better = fill(alignment, answer); },
+                         [&] { addSpectrum(answer.spectrum); });
+    if (better) fill(registration_.align(*better, schedule), answer);
     if (answer.accepted() && stepTooLarge(guess, answer, sigma_position, sigma_rotation)) {
       answer.refusal = MatchRefusal::kLargeStep;
     }
@@ -200,7 +203,8 @@ class ScanMatcher::Work {
     return true;
   }
 
-  void fill(const Alignment& alignment, MapMatch& answer) {
+  // Returns where the scan lies better, where it was asked and does.
+  std::optional<Pose> fill(const Alignment& alignment, MapMatch& answer) {
     const Stopwatch stopwatch;
     timing_.association_s = alignment.timing.association_s;
     timing_.solve_s = alignment.timing.solve_s;
@@ -213,14 +217,17 @@ class ScanMatcher::Work {
     answer.residual_median_m = alignment.residual_median_m;
     answer.iterations = alignment.iterations;
     answer.refusal = gate(alignment, answer);
+    std::optional<Pose> better;
     if (!registration_.rows().empty()) {
       std::optional<DirectionObserver> observer;
+      const auto holds = [&](const Motion& motion) {
+        const MotionProbe::Answer probed = registration_.probe(motion);
+        if (probed.better) better = probed.better;
+        return probed.holds;
+      };
       Registration::Shared shared;
       tbb::parallel_invoke(
-          [&] {
-            observer.emplace(registration_.rows(), settings_.normal_noise_rad,
-                             [this](const Motion& motion) { return registration_.holds(motion); });
-          },
+          [&] { observer.emplace(registration_.rows(), settings_.normal_noise_rad, holds); },
           [&] { shared = registration_.sharedErrorsOfRows(); });
       const ObservedDirections observed = observer->under(shared.spread);
       answer.directions = observed.directions;
@@ -235,6 +242,7 @@ class ScanMatcher::Work {
       if (answer.accepted()) addSurfaces(shared.patches, local, answer);
     }
     timing_.information_s = stopwatch.seconds();
+    return better;
   }
 
   void addSurfaces(const std::vector<SurfacePatch>& patches, const Pose& local, MapMatch& answer) {
