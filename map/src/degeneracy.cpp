@@ -16,7 +16,8 @@ namespace {
 // too small by a fifth at most.
 constexpr double kSignalToNoise = 2;
 constexpr double kFullShare = 0.005;
-constexpr double kFewRows = 50;  // below it they may be wrong together
+// Rows, all telling as much, that may be wrong together, and those that may, but seldom are.
+constexpr double kFewRows = 50, kSomeRows = 120;
 constexpr double kFull = 0.95, kNone = 0.05;
 
 // How the other kind follows a motion of this one: other = follow * own. What noise alone would
@@ -50,11 +51,16 @@ double factorOf(const MatchDirection& direction) {
   return factor < kNone ? 0 : factor;
 }
 
+bool hangsOnFew(const Support& support, const Motion& motion, const MotionCheck& worse) {
+  const double rows = support.effectiveRows();
+  return rows < kSomeRows && worse(motion) < (rows < kFewRows ? 1 : 0);
+}
+
 // The three directions of one kind, weakest first, with shares and probabilities. They are those of
 // the rows alone: shared errors blur them, since a bias of the range turns the weakest axis towards
 // whatever the bias moves most.
 void observeKind(const SupportRows& rows, const Mat6& geometry, DirectionKind own,
-                 const MotionCheck& holds, std::array<MatchDirection, 6>& directions) {
+                 const MotionCheck& worse, std::array<MatchDirection, 6>& directions) {
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(schurComplement(geometry, own));
   const Mat3 follow = followingMotion(rows, geometry, own);
   std::array<double, 3> counts{};
@@ -74,8 +80,8 @@ void observeKind(const SupportRows& rows, const Mat6& geometry, DirectionKind ow
     direction.probability = informativeProbability(support);
     direction.agreement = support.unweighted > 0 ? support.signal / support.unweighted : 0;
     counts[static_cast<std::size_t>(i)] = support.count;
-    if (holds && direction.probability > kNone && support.effectiveRows() < kFewRows &&
-        !holds(motions[static_cast<std::size_t>(i)])) {
+    if (worse && direction.probability > kNone &&
+        hangsOnFew(support, motions[static_cast<std::size_t>(i)], worse)) {
       direction.probability = 0;
     }
   }
@@ -111,11 +117,11 @@ void attenuateKind(DirectionKind own, const std::array<MatchDirection, 6>& direc
 }  // namespace
 
 DirectionObserver::DirectionObserver(std::span<const PlaneRow> rows, double normal_noise_rad,
-                                     const MotionCheck& holds)
+                                     const MotionCheck& worse)
     : geometry_(leastSquares(rows).information) {
   const SupportRows support(rows, normal_noise_rad);
   for (const DirectionKind own : {DirectionKind::kPosition, DirectionKind::kRotation}) {
-    observeKind(support, geometry_, own, holds, directions_);
+    observeKind(support, geometry_, own, worse, directions_);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "parallel_chunks.h"
@@ -82,14 +83,14 @@ MotionProbe::Change MotionProbe::changeBy(const Motion& moved, const Pose& pose)
 
 MotionProbe::Answer MotionProbe::ask(const Motion& motion) const {
   const double length = lengthOf(motion, planes_);
-  Answer answer;
+  Answer answer{std::numeric_limits<double>::infinity(), {}};
   double least = -kClearlyBetter;
   for (const Probe& probe : kProbes) {
     for (const double by : {probe.by_m / length, -probe.by_m / length}) {
       const Motion moved{by * motion.v, by * motion.w};
       const Pose pose = movedBy(pose_, moved);
       const double significance = changeBy(moved, pose).significance();
-      if (significance < probe.significant) answer.holds = false;
+      answer.clearness = std::min(answer.clearness, significance / probe.significant);
       if (significance < least) {
         least = significance;
         answer.better = pose;

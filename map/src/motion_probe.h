@@ -28,17 +28,18 @@ class MotionProbe {
         within_m_(within_m),
         arena_(arena) {}
 
-  /// Whether the scan lies clearly worse whichever way along the motion (body frame) it is moved,
-  /// by 3 to 15 cm at the points; and where it lies clearly better.
-  ///
-  /// Clearly: of rho(z) = z^2 / (1 + z^2 / k^2), z the residual in sigmas, k the kernel's width,
-  /// the sum of the changes is beyond twice the root of the sum of their squares (near the pose,
-  /// where planes sought anew are noise for the most part, once), over the points that have a plane
-  /// in both places and see the motion by either. So four points can tell, when they all do.
   struct Answer {
-    bool holds = true;
+    double clearness = 0;
     std::optional<Pose> better;
   };
+  /// How clearly the scan lies worse whichever way along the motion (body frame) it is moved, by 3
+  /// to 15 cm at the points: below 0 it lies better somewhere, from 1 on it lies clearly worse
+  /// everywhere. And where it lies clearly better, if anywhere.
+  ///
+  /// Of rho(z) = z^2 / (1 + z^2 / k^2), z the residual in sigmas, k the kernel's width, the changes
+  /// are summed over the points that have a plane in both places and see the motion by either.
+  /// Clearly: the sum is twice the root of the sum of their squares (near the pose, where planes
+  /// sought anew are noise for the most part, once). So four points can tell, when they all do.
   Answer ask(const Motion& motion) const;
 
  private:

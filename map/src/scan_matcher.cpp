@@ -220,14 +220,14 @@ class ScanMatcher::Work {
     std::optional<Pose> better;
     if (!registration_.rows().empty()) {
       std::optional<DirectionObserver> observer;
-      const auto holds = [&](const Motion& motion) {
+      const auto worse = [&](const Motion& motion) {
         const MotionProbe::Answer probed = registration_.probe(motion);
         if (probed.better) better = probed.better;
-        return probed.holds;
+        return probed.clearness;
       };
       Registration::Shared shared;
       tbb::parallel_invoke(
-          [&] { observer.emplace(registration_.rows(), settings_.normal_noise_rad, holds); },
+          [&] { observer.emplace(registration_.rows(), settings_.normal_noise_rad, worse); },
           [&] { shared = registration_.sharedErrorsOfRows(); });
       const ObservedDirections observed = observer->under(shared.spread);
       answer.directions = observed.directions;

@@ -16,8 +16,9 @@ struct Motion {
   Vec3 v = Vec3::Zero(), w = Vec3::Zero();
 };
 
-/// Whether the scan would lie worse on the map with the body moved along a motion, to either side.
-using MotionCheck = std::function<bool(const Motion&)>;
+/// How clearly a scan would lie worse on the map with the body moved along a motion, to either
+/// side: below 0 it would lie better somewhere, from 1 on it would lie clearly worse everywhere.
+using MotionCheck = std::function<double(const Motion&)>;
 
 /// The six directions of a pose as the map sees them, and the information that is left when the
 /// weak ones have been scaled down.
@@ -59,9 +60,11 @@ PALOC_EXPORT ObservedDirections observeDirections(std::span<const PlaneRow> rows
 /// The same in two parts. The first is all that takes time and needs no spread.
 class PALOC_EXPORT DirectionObserver {
  public:
-  /// Of a direction that hangs on a handful of rows `holds` is asked, if there is one.
+  /// `worse`, if there is one, is asked of a direction that some 120 rows or fewer tell most of,
+  /// which may be wrong together, at the edge of a shelf: it is none where the scan would lie
+  /// better elsewhere; with 50 rows or fewer already where it would not lie clearly worse.
   DirectionObserver(std::span<const PlaneRow> rows, double normal_noise_rad,
-                    const MotionCheck& holds = {});
+                    const MotionCheck& worse = {});
   /// Of the rows as independent ones (leastSquares), nothing scaled down.
   const Mat6& information() const { return geometry_; }
   /// Without their sigmas.
