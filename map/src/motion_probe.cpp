@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "parallel_chunks.h"
@@ -16,10 +17,10 @@ namespace {
 struct Probe {
   double by_m, significant;
 };
-constexpr std::array kProbes = {Probe{0.03, 1}, Probe{0.06, 2}, Probe{0.1, 2}, Probe{0.15, 2}};
-constexpr double kClearlyBetter = 2;
-constexpr double kKernel = 3;      // as that of the registration
-constexpr double kSeesMotion = 1;  // in sigmas: what moves a residual by less says nothing
+constexpr std::array kProbes = {Probe{0.06, 2}, Probe{0.03, 1}, Probe{0.1, 2}, Probe{0.15, 2}};
+constexpr double kClearlyBetter = 2, kBeyondDoubt = 6;  // standard deviations
+constexpr std::size_t kMostPoints = 400;
+constexpr double kKernel = 3;  // as that of the registration
 
 double robust(double z) { return z * z / (1 + z * z / (kKernel * kKernel)); }
 
@@ -38,28 +39,42 @@ Pose movedBy(const Pose& pose, const Motion& motion) {
 
 }  // namespace
 
-MotionProbe::Change MotionProbe::changeOf(std::size_t begin, std::size_t end, const Motion& moved,
+// Those points that such a motion moves off their planes by more than their noise, the most of
+// these where there are very many.
+std::vector<std::uint32_t> MotionProbe::pointsThatSee(const Motion& moved) const {
+  std::vector<std::pair<double, std::uint32_t>> seeing;  // by how many sigmas, less than zero
+  for (std::size_t i = 0; i < matches_.size(); ++i) {
+    const Correspondence& match = matches_[i];
+    if (!match.planar || !match.near || match.distance > within_m_) continue;
+    const Vec3 m = pose_.rotation * (moved.v + moved.w.cross(planes_.point(i)));
+    const double sigmas = std::abs(match.normal.dot(m)) / (scale_ * match.sigma);
+    if (sigmas > 1) seeing.emplace_back(-sigmas, static_cast<std::uint32_t>(i));
+  }
+  const std::size_t count = std::min(seeing.size(), kMostPoints);
+  std::partial_sort(seeing.begin(), seeing.begin() + static_cast<std::ptrdiff_t>(count),
+                    seeing.end());
+  std::vector<std::uint32_t> points(count);
+  std::transform(seeing.begin(), seeing.begin() + static_cast<std::ptrdiff_t>(count),
+                 points.begin(), [](const auto& point) { return point.second; });
+  return points;
+}
+
+MotionProbe::Change MotionProbe::changeOf(std::span<const std::uint32_t> points,
                                           const Pose& pose) const {
   std::array<Correspondence, PlaneSearch::kMost> there;
   std::array<Correspondence*, PlaneSearch::kMost> sought{};
-  for (std::size_t i = begin; i < end; ++i) {
-    there[i - begin] = matches_[i];
-    there[i - begin].searched_at = pose * planes_.point(i);
-    sought[i - begin] = &there[i - begin];
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    there[k] = matches_[points[k]];
+    there[k].searched_at = pose * planes_.point(points[k]);
+    sought[k] = &there[k];
   }
-  planes_.search(std::span(sought).first(end - begin), pose, within_m_);
+  planes_.search(std::span(sought).first(points.size()), pose, within_m_);
   Change change;
-  for (std::size_t i = begin; i < end; ++i) {
-    const Correspondence& here = matches_[i];
-    Correspondence& match = there[i - begin];
-    const bool here_planar = here.planar && here.near && here.distance <= within_m_;
-    if (!here_planar || !match.planar) continue;
-    planes_.measure(match, i, match.searched_at, pose.rotation);
-    const Vec3 m = pose.rotation * (moved.v + moved.w.cross(planes_.point(i)));
-    const double sigma = scale_ * std::min(here.sigma, match.sigma);
-    const double seen = std::max(std::abs(here.normal.dot(m)), std::abs(match.normal.dot(m)));
-    if (seen < kSeesMotion * sigma) continue;
-    const double worse = robust(match.residual / (scale_ * match.sigma)) -
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (!there[k].planar) continue;
+    const Correspondence& here = matches_[points[k]];
+    planes_.measure(there[k], points[k], there[k].searched_at, pose.rotation);
+    const double worse = robust(there[k].residual / (scale_ * there[k].sigma)) -
                          robust(here.residual / (scale_ * here.sigma));
     change.sum += worse;
     change.squares += worse * worse;
@@ -68,10 +83,11 @@ MotionProbe::Change MotionProbe::changeOf(std::size_t begin, std::size_t end, co
 }
 
 MotionProbe::Change MotionProbe::changeBy(const Motion& moved, const Pose& pose) const {
-  std::vector<Change> parts(chunkCount(planes_.size(), PlaneSearch::kMost));
-  forEachChunk(arena_, planes_.size(), PlaneSearch::kMost,
+  const std::vector<std::uint32_t> points = pointsThatSee(moved);
+  std::vector<Change> parts(chunkCount(points.size(), PlaneSearch::kMost));
+  forEachChunk(arena_, points.size(), PlaneSearch::kMost,
                [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-                 parts[chunk] = changeOf(begin, end, moved, pose);
+                 parts[chunk] = changeOf(std::span(points).subspan(begin, end - begin), pose);
                });
   Change all;
   for (const Change& part : parts) {
@@ -86,16 +102,18 @@ MotionProbe::Answer MotionProbe::ask(const Motion& motion) const {
   Answer answer{std::numeric_limits<double>::infinity(), {}};
   double least = -kClearlyBetter;
   for (const Probe& probe : kProbes) {
+    double nearer = std::numeric_limits<double>::infinity();
     for (const double by : {probe.by_m / length, -probe.by_m / length}) {
       const Motion moved{by * motion.v, by * motion.w};
       const Pose pose = movedBy(pose_, moved);
       const double significance = changeBy(moved, pose).significance();
+      nearer = std::min(nearer, significance);
       answer.clearness = std::min(answer.clearness, significance / probe.significant);
-      if (significance < least) {
-        least = significance;
-        answer.better = pose;
-      }
+      if (significance >= least) continue;
+      least = significance;
+      answer.better = pose;
     }
+    if (nearer > kBeyondDoubt) break;
   }
   return answer;
 }

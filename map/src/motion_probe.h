@@ -3,8 +3,10 @@
 #include <tbb/task_arena.h>
 
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "paloc/core/pose.h"
 #include "paloc/map/degeneracy.h"
@@ -37,7 +39,7 @@ class MotionProbe {
   /// everywhere. And where it lies clearly better, if anywhere.
   ///
   /// Of rho(z) = z^2 / (1 + z^2 / k^2), z the residual in sigmas, k the kernel's width, the changes
-  /// are summed over the points that have a plane in both places and see the motion by either.
+  /// are summed over the points that see the motion here and have a plane there, too.
   /// Clearly: the sum is twice the root of the sum of their squares (near the pose, where planes
   /// sought anew are noise for the most part, once). So four points can tell, when they all do.
   Answer ask(const Motion& motion) const;
@@ -49,7 +51,8 @@ class MotionProbe {
     double significance() const { return squares > 0 ? sum / std::sqrt(squares) : 0; }
   };
   Change changeBy(const Motion& moved, const Pose& pose) const;
-  Change changeOf(std::size_t begin, std::size_t end, const Motion& moved, const Pose& pose) const;
+  Change changeOf(std::span<const std::uint32_t> points, const Pose& pose) const;
+  std::vector<std::uint32_t> pointsThatSee(const Motion& moved) const;
 
   const PlaneSearch& planes_;
   std::span<const Correspondence> matches_;
