@@ -64,13 +64,19 @@ class ScanMatcher::Work {
         .start_sigma_m = sigma_position};
     const Alignment alignment = registration_.align(toLocal(guess), schedule);
     std::optional<Pose> better;
-    tbb::parallel_invoke([&] { better = fill(alignment, answer); },
+    tbb::parallel_invoke([&] { better = fill(alignment, answer, true); },
                          [&] { addSpectrum(answer.spectrum); });
-    if (better) fill(registration_.align(*better, schedule), answer);
-    if (answer.accepted() && stepTooLarge(guess, answer, sigma_position, sigma_rotation)) {
-      answer.refusal = MatchRefusal::kLargeStep;
-    }
-    return answer;
+    const auto refuseTooLarge = [&](MapMatch& match) {
+      if (match.accepted() && stepTooLarge(guess, match, sigma_position, sigma_rotation)) {
+        match.refusal = MatchRefusal::kLargeStep;
+      }
+    };
+    refuseTooLarge(answer);
+    if (!better) return answer;
+    MapMatch there = answer;
+    fill(registration_.align(*better, schedule), there, true);
+    refuseTooLarge(there);
+    return there.accepted() ? there : answer;
   }
 
   MapMatch locate(const Scan& scan, StartGuess guess) {
@@ -95,7 +101,7 @@ class ScanMatcher::Work {
     MapMatch answer = begin(scan, rough);
     if (answer.refusal == MatchRefusal::kNoScan || tooFew(answer)) return answer;
     const RoughStart found = searchAround(registration_, *map_, settings_, toLocal(rough));
-    fill(found.alignment, answer);
+    fill(found.alignment, answer, false);
     tellEvidence(found.evidence, answer);
     const Vec6 step = boxminus(fromMrpt(answer.T_map_body), rough);
     if (answer.accepted() && (step.head<3>().norm() > settings_.locate_max_step_m ||
@@ -151,7 +157,7 @@ class ScanMatcher::Work {
       answer.refusal = found.refusal;
       return answer;
     }
-    fill(found.alignment, answer);
+    fill(found.alignment, answer, false);
     tellEvidence(found.evidence, answer);
     answer.runner_up = found.runner_up;
     if (answer.accepted()) answer.refusal = found.refusal;
@@ -204,7 +210,7 @@ class ScanMatcher::Work {
   }
 
   // Returns where the scan lies better, where it was asked and does.
-  std::optional<Pose> fill(const Alignment& alignment, MapMatch& answer) {
+  std::optional<Pose> fill(const Alignment& alignment, MapMatch& answer, bool probing) {
     const Stopwatch stopwatch;
     timing_.association_s = alignment.timing.association_s;
     timing_.solve_s = alignment.timing.solve_s;
@@ -220,14 +226,17 @@ class ScanMatcher::Work {
     std::optional<Pose> better;
     if (!registration_.rows().empty()) {
       std::optional<DirectionObserver> observer;
-      const auto worse = [&](const Motion& motion) {
+      const MotionCheck worse = [&](const Motion& motion) {
         const MotionProbe::Answer probed = registration_.probe(motion);
         if (probed.better) better = probed.better;
         return probed.clearness;
       };
       Registration::Shared shared;
       tbb::parallel_invoke(
-          [&] { observer.emplace(registration_.rows(), settings_.normal_noise_rad, worse); },
+          [&] {
+            observer.emplace(registration_.rows(), settings_.normal_noise_rad,
+                             probing ? worse : MotionCheck());
+          },
           [&] { shared = registration_.sharedErrorsOfRows(); });
       const ObservedDirections observed = observer->under(shared.spread);
       answer.directions = observed.directions;
