@@ -83,15 +83,15 @@ Mat6 withoutTelling(const Observed& by, const Motion& motion) {
   return rest;
 }
 
-// Rows that are wrong together would make the other kind follow to where they are less so: the
+// Rows that are wrong together would make the rotation follow to where they are less so: the
 // question is put for the motion that the others would allow.
-bool hangsOnFew(const Observed& by, const Support& support, const Motion& motion,
-                DirectionKind own) {
+bool hangsOnFew(const Observed& by, const Support& support, const Motion& translation) {
   const double rows = support.effectiveRows();
   if (!by.worse || rows >= kSomeRows) return false;
-  const Mat3 follow = followingMotion(by.support, withoutTelling(by, motion), own);
-  const Vec3& axis = own == DirectionKind::kPosition ? motion.v : motion.w;
-  return by.worse(motionAlong(axis, follow, own)) < (rows < kFewRows ? 1 : 0);
+  const Mat3 follow =
+      followingMotion(by.support, withoutTelling(by, translation), DirectionKind::kPosition);
+  const double worse = by.worse({translation.v, follow * translation.v});
+  return worse < (rows < kFewRows ? 1 : 0);
 }
 
 // The three directions of one kind, weakest first, with shares and probabilities. They are those of
@@ -113,7 +113,8 @@ void observeKind(const Observed& by, DirectionKind own, std::array<MatchDirectio
     direction.probability = informativeProbability(support);
     direction.agreement = support.unweighted > 0 ? support.signal / support.unweighted : 0;
     direction.share = support.count / largest;
-    if (factorOf(direction) > 0 && hangsOnFew(by, support, motions[i], own)) {
+    if (own == DirectionKind::kPosition && factorOf(direction) > 0 &&
+        hangsOnFew(by, support, motions[i])) {
       direction.probability = 0;
     }
     direction.cls = classOf(factorOf(direction));

@@ -12,13 +12,9 @@
 namespace paloc {
 namespace {
 
-// How far the points are moved, and how many standard deviations the sum of changes must be then.
-// Near the pose, planes sought anew are noise for the most part.
-struct Probe {
-  double by_m, significant;
-};
-constexpr std::array kProbes = {Probe{0.06, 2}, Probe{0.03, 1}, Probe{0.1, 2}, Probe{0.15, 2}};
-constexpr double kClearlyBetter = 2, kBeyondDoubt = 6;  // standard deviations
+// How far the points are moved. Nearer, planes sought anew are noise for the most part.
+constexpr std::array kProbesM = {0.06, 0.1, 0.15};
+constexpr double kClearly = 2, kBeyondDoubt = 6;  // standard deviations
 constexpr std::size_t kMostPoints = 400;
 constexpr double kKernel = 3;  // as that of the registration
 
@@ -100,15 +96,15 @@ MotionProbe::Change MotionProbe::changeBy(const Motion& moved, const Pose& pose)
 MotionProbe::Answer MotionProbe::ask(const Motion& motion) const {
   const double length = lengthOf(motion, planes_);
   Answer answer{std::numeric_limits<double>::infinity(), {}};
-  double least = -kClearlyBetter;
-  for (const Probe& probe : kProbes) {
+  double least = -kClearly;
+  for (const double probe_m : kProbesM) {
     double nearer = std::numeric_limits<double>::infinity();
-    for (const double by : {probe.by_m / length, -probe.by_m / length}) {
+    for (const double by : {probe_m / length, -probe_m / length}) {
       const Motion moved{by * motion.v, by * motion.w};
       const Pose pose = movedBy(pose_, moved);
       const double significance = changeBy(moved, pose).significance();
       nearer = std::min(nearer, significance);
-      answer.clearness = std::min(answer.clearness, significance / probe.significant);
+      answer.clearness = std::min(answer.clearness, significance / kClearly);
       if (significance >= least) continue;
       least = significance;
       answer.better = pose;

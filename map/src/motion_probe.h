@@ -34,14 +34,13 @@ class MotionProbe {
     double clearness = 0;
     std::optional<Pose> better;
   };
-  /// How clearly the scan lies worse whichever way along the motion (body frame) it is moved, by 3
+  /// How clearly the scan lies worse whichever way along the motion (body frame) it is moved, by 6
   /// to 15 cm at the points: below 0 it lies better somewhere, from 1 on it lies clearly worse
   /// everywhere. And where it lies clearly better, if anywhere.
   ///
   /// Of rho(z) = z^2 / (1 + z^2 / k^2), z the residual in sigmas, k the kernel's width, the changes
-  /// are summed over the points that see the motion here and have a plane there, too.
-  /// Clearly: the sum is twice the root of the sum of their squares (near the pose, where planes
-  /// sought anew are noise for the most part, once). So four points can tell, when they all do.
+  /// are summed over the points that see the motion here and have a plane there, too. Clearly: the
+  /// sum is twice the root of the sum of their squares. So four points can tell, when they all do.
   Answer ask(const Motion& motion) const;
 
  private:

@@ -13,9 +13,11 @@ namespace {
 
 /// A shaft whose ends are out of sight, with a ledge on the wall of high y: all that tells the
 /// height.
-test::BoxWorld shaftWithLedge(double to_wall_m, double depth_m, double top_m, double bottom_m) {
+test::BoxWorld shaftWithLedge(double to_wall_m, double depth_m, double top_m, double bottom_m,
+                              double half_width_m = 0.4) {
   test::BoxWorld world{{{Vec3(-1.5, -to_wall_m, -10), Vec3(1.5, to_wall_m, 10)}}, {}, {4, 5}};
-  world.boxes.push_back({Vec3(-0.4, to_wall_m - depth_m, bottom_m), Vec3(0.4, to_wall_m, top_m)});
+  world.boxes.push_back(
+      {Vec3(-half_width_m, to_wall_m - depth_m, bottom_m), Vec3(half_width_m, to_wall_m, top_m)});
   return world;
 }
 
@@ -73,7 +75,7 @@ TEST(MotionProbe, AHeightHeldByPointsAtAnEdgeIsNotBelieved) {
 }
 
 TEST(MotionProbe, AFaceThatIsSeenIsBelieved) {
-  const Counts counts = heightsIn(shaftWithLedge(3, 2, -0.6, -0.75));
+  const Counts counts = heightsIn(shaftWithLedge(3, 2, -0.6, -0.75, 1.5));
   EXPECT_EQ(counts.lied, 0);
   EXPECT_GE(counts.told, 36);
 }

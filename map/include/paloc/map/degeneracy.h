@@ -60,7 +60,7 @@ PALOC_EXPORT ObservedDirections observeDirections(std::span<const PlaneRow> rows
 /// The same in two parts. The first is all that takes time and needs no spread.
 class PALOC_EXPORT DirectionObserver {
  public:
-  /// `worse`, if there is one, is asked of a direction that some 120 rows or fewer tell most of,
+  /// `worse`, if there is one, is asked of a translation that some 120 rows or fewer tell most of,
   /// which may be wrong together, at the edge of a shelf: it is none where the scan would lie
   /// better elsewhere; with 50 rows or fewer already where it would not lie clearly worse.
   DirectionObserver(std::span<const PlaneRow> rows, double normal_noise_rad,
