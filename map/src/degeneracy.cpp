@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "motion_support.h"
 #include "paloc/core/direction_information.h"
@@ -16,6 +18,8 @@ namespace {
 // too small by a fifth at most.
 constexpr double kSignalToNoise = 2;
 constexpr double kFullShare = 0.005;
+// Rows, all telling as much, that may be wrong together, and those that may, but seldom are.
+constexpr double kFewRows = 50, kSomeRows = 120;
 constexpr double kFull = 0.95, kNone = 0.05;
 
 // How the other kind follows a motion of this one: other = follow * own. What noise alone would
@@ -49,35 +53,70 @@ double factorOf(const MatchDirection& direction) {
   return factor < kNone ? 0 : factor;
 }
 
+// What observes the directions.
+struct Observed {
+  std::span<const PlaneRow> rows;
+  const SupportRows& support;
+  const Mat6& geometry;
+  const MotionCheck& worse;
+};
+
+Motion motionAlong(const Vec3& axis, const Mat3& follow, DirectionKind own) {
+  const Vec3 other = follow * axis;
+  return own == DirectionKind::kPosition ? Motion{axis, other} : Motion{other, axis};
+}
+
+// What is known but for the few rows that tell most of a motion.
+Mat6 withoutTelling(const Observed& by, const Motion& motion) {
+  std::vector<std::pair<double, std::size_t>> told;
+  for (std::size_t i = 0; i < by.rows.size(); ++i) {
+    const PlaneRow& row = by.rows[i];
+    const double along = row.normal_body.dot(motion.v + motion.w.cross(row.point_body));
+    told.emplace_back(-along * along / row.variance, i);
+  }
+  const std::size_t few = std::min(told.size(), static_cast<std::size_t>(kFewRows));
+  std::partial_sort(told.begin(), told.begin() + static_cast<std::ptrdiff_t>(few), told.end());
+  Mat6 rest = by.geometry;
+  for (std::size_t k = 0; k < few; ++k) {
+    rest -= leastSquares(by.rows.subspan(told[k].second, 1)).information;
+  }
+  return rest;
+}
+
+// Rows that are wrong together would make the rotation follow to where they are less so: the
+// question is put for the motion that the others would allow.
+bool hangsOnFew(const Observed& by, const Support& support, const Motion& translation) {
+  const double rows = support.effectiveRows();
+  if (!by.worse || rows >= kSomeRows) return false;
+  const Mat3 follow =
+      followingMotion(by.support, withoutTelling(by, translation), DirectionKind::kPosition);
+  const double worse = by.worse({translation.v, follow * translation.v});
+  return worse < (rows < kFewRows ? 1 : 0);
+}
+
 // The three directions of one kind, weakest first, with shares and probabilities. They are those of
 // the rows alone: shared errors blur them, since a bias of the range turns the weakest axis towards
 // whatever the bias moves most.
-void observeKind(const SupportRows& rows, const Mat6& geometry, DirectionKind own,
-                 std::array<MatchDirection, 6>& directions) {
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(schurComplement(geometry, own));
-  const Mat3 follow = followingMotion(rows, geometry, own);
-  std::array<double, 3> counts{};
+void observeKind(const Observed& by, DirectionKind own, std::array<MatchDirection, 6>& directions) {
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(schurComplement(by.geometry, own));
+  const Mat3 follow = followingMotion(by.support, by.geometry, own);
   std::array<Motion, 3> motions;
   for (int i = 0; i < 3; ++i) {
-    const Vec3 axis = solver.eigenvectors().col(i);
-    const Vec3 other = follow * axis;
-    motions[static_cast<std::size_t>(i)] =
-        own == DirectionKind::kPosition ? Motion{axis, other} : Motion{other, axis};
+    motions[static_cast<std::size_t>(i)] = motionAlong(solver.eigenvectors().col(i), follow, own);
   }
-  const std::array<Support, 3> supports = rows.of(motions);
-  for (int i = 0; i < 3; ++i) {
-    const Support& support = supports[static_cast<std::size_t>(i)];
-    MatchDirection& direction =
-        directions[static_cast<std::size_t>(own) + static_cast<std::size_t>(i)];
-    direction.axis_body = solver.eigenvectors().col(i);
+  const std::array<Support, 3> supports = by.support.of(motions);
+  const double largest = std::max({supports[0].count, supports[1].count, supports[2].count, 1.0});
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Support& support = supports[i];
+    MatchDirection& direction = directions[static_cast<std::size_t>(own) + i];
+    direction.axis_body = solver.eigenvectors().col(static_cast<Eigen::Index>(i));
     direction.probability = informativeProbability(support);
     direction.agreement = support.unweighted > 0 ? support.signal / support.unweighted : 0;
-    counts[static_cast<std::size_t>(i)] = support.count;
-  }
-  const double largest = std::max({counts[0], counts[1], counts[2], 1.0});
-  for (std::size_t i = 0; i < 3; ++i) {
-    MatchDirection& direction = directions[static_cast<std::size_t>(own) + i];
-    direction.share = counts[i] / largest;
+    direction.share = support.count / largest;
+    if (own == DirectionKind::kPosition && factorOf(direction) > 0 &&
+        hangsOnFew(by, support, motions[i])) {
+      direction.probability = 0;
+    }
     direction.cls = classOf(factorOf(direction));
   }
 }
@@ -105,11 +144,12 @@ void attenuateKind(DirectionKind own, const std::array<MatchDirection, 6>& direc
 
 }  // namespace
 
-DirectionObserver::DirectionObserver(std::span<const PlaneRow> rows, double normal_noise_rad)
+DirectionObserver::DirectionObserver(std::span<const PlaneRow> rows, double normal_noise_rad,
+                                     const MotionCheck& worse)
     : geometry_(leastSquares(rows).information) {
   const SupportRows support(rows, normal_noise_rad);
   for (const DirectionKind own : {DirectionKind::kPosition, DirectionKind::kRotation}) {
-    observeKind(support, geometry_, own, directions_);
+    observeKind({rows, support, geometry_, worse}, own, directions_);
   }
 }
 

@@ -44,7 +44,9 @@ inline void SupportRows::add(const Lanes& rows, const Motion& motion, Sums& sums
   const Float4 along_sq = along * along, motion_sq = mx * mx + my * my + mz * mz;
   const Float4 noise_var = rows.normal_var * max4(motion_sq - along_sq, Float4{}) +
                            rows.range_var * max4(w.squaredNorm() - turn * turn, Float4{});
-  sums.signal += rows.weight * along_sq;
+  const Float4 signal = rows.weight * along_sq;
+  sums.signal += signal;
+  sums.squares += signal * signal;
   sums.unweighted += rows.unweighted * along_sq;
   sums.noise_mean += rows.weight * noise_var;
   // Of the square of a normal variable with mean `along`.
@@ -65,6 +67,7 @@ std::array<Support, 3> SupportRows::of(const std::array<Motion, 3>& motions) con
       supports[k].noise_mean += total(sums.noise_mean);
       supports[k].variance += total(sums.variance);
       supports[k].unweighted += total(sums.unweighted);
+      supports[k].squares += total(sums.squares);
     }
   }
   return supports;

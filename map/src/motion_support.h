@@ -5,15 +5,9 @@
 #include <vector>
 
 #include "lanes4.h"
-#include "paloc/core/types.h"
-#include "paloc/map/map_information.h"
+#include "paloc/map/degeneracy.h"
 
 namespace paloc {
-
-/// A small motion: translation v (m) and rotation w (rad) in the body frame.
-struct Motion {
-  Vec3 v = Vec3::Zero(), w = Vec3::Zero();
-};
 
 /// What rows know of a motion.
 struct Support {
@@ -21,6 +15,10 @@ struct Support {
   double signal = 0;                    // information along it
   double noise_mean = 0, variance = 0;  // that noise alone would give, and of the signal
   double unweighted = 0;                // the signal without robust weights
+  double squares = 0;                   // of what each row adds to the signal
+
+  /// That many rows, each telling as much, would be as concentrated.
+  double effectiveRows() const { return squares > 0 ? signal * signal / squares : 0; }
 };
 
 /// Rows, four side by side in single precision, to be asked what they know of motions.
@@ -43,7 +41,7 @@ class SupportRows {
     Float4 normal_var, range_var;
   };
   struct Sums {
-    Float4 count{}, signal{}, noise_mean{}, variance{}, unweighted{};
+    Float4 count{}, signal{}, noise_mean{}, variance{}, unweighted{}, squares{};
   };
   static void add(const Lanes& rows, const Motion& motion, Sums& sums);
 

@@ -12,9 +12,9 @@ constexpr double kMinWidthToLength = 0.15;  // below: a line, whose normal is fr
 constexpr double kMaxOwnOffset = 3.0;       // of the point itself, in thicknesses
 constexpr float kNotPlanar = -1.0F;
 
-constexpr int kMaxNewtonSteps = 24;
-// Of the trace: the step after it is of the order of its square.
-constexpr double kNewtonEnough = 1e-7;
+constexpr int kMaxSteps = 24;
+// Of the trace: the step after it is of the order of its cube.
+constexpr double kStepEnough = 1e-4;
 
 /// A symmetric matrix without negative eigenvalues.
 struct Symmetric {
@@ -32,9 +32,9 @@ Symmetric covarianceOf(const MomentSums& sums) {
           central(3, 1, 1), central(4, 1, 2), central(5, 2, 2)};
 }
 
-// The eigenvalues, ascending. The characteristic polynomial is concave and negative below the
-// smallest: Newton's steps from zero come to it from below, and never beyond. No more than the
-// four operations and a square root, so that every machine gives the same bits.
+// The eigenvalues, ascending. The characteristic polynomial p has real roots only: Halley's steps,
+// 2 p p' / (2 p'^2 - p p''), come from zero to the smallest one from below, and never beyond. No
+// more than the four operations and a square root, so that every machine gives the same bits.
 Vec3 eigenvaluesOf(const Symmetric& a) {
   const double minor_x = a.yy * a.zz - a.yz * a.yz, minor_y = a.xx * a.zz - a.xz * a.xz,
                minor_z = a.xx * a.yy - a.xy * a.xy;
@@ -42,13 +42,14 @@ Vec3 eigenvaluesOf(const Symmetric& a) {
   const double c0 =
       a.xx * minor_x - a.xy * (a.xy * a.zz - a.yz * a.xz) + a.xz * (a.xy * a.yz - a.yy * a.xz);
   double least = 0;
-  for (int i = 0; i < kMaxNewtonSteps; ++i) {
+  for (int i = 0; i < kMaxSteps; ++i) {
     const double value = ((least - c2) * least + c1) * least - c0;
     const double slope = (3 * least - 2 * c2) * least + c1;
     if (!(slope > 0) || !(value < 0)) break;
-    const double step = value / slope;
+    const double half_bend = 3 * least - c2;
+    const double step = value * slope / (slope * slope - value * half_bend);
     least -= step;
-    if (-step < kNewtonEnough * c2) break;
+    if (-step < kStepEnough * c2) break;
   }
   const double sum = c2 - least, product = std::max(c1 - least * sum, 0.0);
   const double most = (sum + std::sqrt(std::max(sum * sum - 4 * product, 0.0))) / 2;

@@ -16,10 +16,6 @@
 namespace paloc {
 namespace {
 
-constexpr double kMinIncidenceCosine =
-    0.1;  // flatter rays say little and are biased by their footprint
-constexpr double kNoiseCosine =
-    0.2;  // below it the range noise counts no less: the beam has a width
 // Planes are kept while no point moves by more than this share of what has it matched anew.
 constexpr double kKeptShare = 0.5;
 constexpr double kKernel = 3.0;  // of the Geman-McClure kernel, in robust standard deviations
@@ -78,82 +74,6 @@ bool allFull(const std::array<MatchDirection, 6>& directions) {
 
 }  // namespace
 
-void Registration::setPoints(AveragedPoints averaged_body, const Vec3& sensor_position_body) {
-  points_ = std::move(averaged_body);
-  sensor_body_ = sensor_position_body;
-  const std::size_t size = points_.points.size();
-  reach_m_ = 0;
-  rays_.resize(size);
-  range_variance_.resize(size);
-  const double variance = settings_.range_noise_m * settings_.range_noise_m;
-  for (std::size_t i = 0; i < size; ++i) {
-    const Vec3 ray = toVec(points_.points[i]) - sensor_body_;
-    const double range = ray.norm();
-    reach_m_ = std::max(reach_m_, range);
-    rays_[i] = range > 0 ? Vec3(ray / range) : Vec3::Zero();
-    range_variance_[i] = variance / points_.returns[i];
-  }
-  reach_m_ += sensor_body_.norm();
-}
-
-// The plane of the nearest map point that the sensor can see. Planes seen edge-on are none.
-void Registration::take(Correspondence& match, const PriorMap::Nearest& nearest,
-                        const Vec3& from_sensor) const {
-  match.planar = false;
-  match.near = nearest.found();
-  match.map_index = nearest.index;
-  if (!nearest.found()) return;
-  match.distance = std::sqrt(static_cast<double>(nearest.distance_sq));
-  const MapPlane plane = map_.plane(nearest.index);
-  if (!plane.planar()) return;
-  match.normal = Vec3(static_cast<double>(plane.nx), static_cast<double>(plane.ny),
-                      static_cast<double>(plane.nz));
-  const double across = match.normal.dot(from_sensor);
-  if (across * across < kMinIncidenceCosine * kMinIncidenceCosine * from_sensor.squaredNorm())
-    return;
-  match.planar = true;
-  match.map_point = toVec(map_.point(nearest.index));
-  match.height = match.normal.dot(match.map_point) + static_cast<double>(plane.offset_m);
-  // Towards the sensor: rows of one surface then have one sign, and so has the error they share.
-  if (across > 0) {
-    match.normal = -match.normal;
-    match.height = -match.height;
-  }
-  const auto thickness = static_cast<double>(plane.thickness_m);
-  // The point of the scan lies anywhere in the thickness of the surface, the fit has its own error.
-  const double roughness = std::max(thickness, settings_.map_noise_m);
-  match.fit_variance = roughness * roughness + thickness * thickness / plane.points;
-  match.normal_sigma = static_cast<double>(plane.normal_sigma_rad);
-  match.surface_sigma = thickness;
-}
-
-// Matches some points, no more than a chunk, anew.
-void Registration::search(std::span<const std::uint32_t> points, const Pose& pose, float reach) {
-  std::array<PriorMap::Query, kChunk> queries;
-  std::array<PriorMap::Nearest, kChunk> answers;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const Correspondence& match = matches_[points[k]];
-    queries[k] = {toPoint(match.searched_at), match.map_index};
-  }
-  const Vec3 sensor = pose * sensor_body_;
-  map_.nearestSeenFrom(toPoint(sensor), reach, std::span(queries).first(points.size()), answers);
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    Correspondence& match = matches_[points[k]];
-    take(match, answers[k], match.searched_at - sensor);
-  }
-}
-
-// Residual and its standard deviation, from the noise of the range and of the plane.
-void Registration::measure(Correspondence& match, std::size_t point, const Vec3& position,
-                           const Mat3& rotation) const {
-  match.residual = match.normal.dot(position) - match.height;
-  match.range_factor = match.normal.dot(rotation * rays_[point]);
-  const double cosine = std::max(std::abs(match.range_factor), kNoiseCosine);
-  const double lever_sq = (position - match.map_point).squaredNorm();
-  match.sigma = std::sqrt(range_variance_[point] * cosine * cosine + match.fit_variance +
-                          lever_sq * match.normal_sigma * match.normal_sigma);
-}
-
 // Seeks the planes of every stride-th point anew, where it moved, and measures their residuals.
 void Registration::associate(const Pose& pose, double gate, int iteration, std::size_t stride) {
   const int restless = std::max(iteration - kRestlessIterations, 0);
@@ -161,36 +81,38 @@ void Registration::associate(const Pose& pose, double gate, int iteration, std::
   const double research =
       std::max(settings_.research_distance_m, least) * std::pow(kRestlessGrowth, restless);
   const double research_sq = research * research;
-  const std::size_t count_all = chunkCount(points_.points.size(), stride);
+  const std::size_t count_all = chunkCount(planes_.size(), stride);
   collected_.resize(chunkCount(count_all, kChunk));
-  forEachChunk(arena_, count_all, kChunk,
-               [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-                 std::array<std::uint32_t, kChunk> moved{};
-                 std::size_t count = 0;
-                 for (std::size_t i = begin * stride; i < points_.points.size() && i < end * stride;
-                      i += stride) {
-                   const Vec3 position = pose * toVec(points_.points[i]);
-                   Correspondence& match = matches_[i];
-                   const bool first = match.alignment != alignments_;
-                   if (first) {
-                     match.alignment = alignments_;
-                     match.map_index = PriorMap::kNoPoint;
-                   }
-                   if (first || (position - match.searched_at).squaredNorm() > research_sq) {
-                     match.searched_at = position;
-                     moved[count++] = static_cast<std::uint32_t>(i);
-                   } else if (match.planar) {
-                     measure(match, i, position, pose.rotation);
-                   }
-                 }
-                 search(std::span(moved).first(count), pose, static_cast<float>(gate));
-                 for (std::size_t k = 0; k < count; ++k) {
-                   Correspondence& match = matches_[moved[k]];
-                   if (match.planar) measure(match, moved[k], match.searched_at, pose.rotation);
-                 }
-                 collect(begin * stride, std::min(end * stride, points_.points.size()), stride,
-                         gate, collected_[chunk]);
-               });
+  forEachChunk(
+      arena_, count_all, kChunk, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+        std::array<std::uint32_t, kChunk> moved{};
+        std::array<Correspondence*, kChunk> anew{};
+        std::size_t count = 0;
+        for (std::size_t i = begin * stride; i < planes_.size() && i < end * stride; i += stride) {
+          const Vec3 position = pose * planes_.point(i);
+          Correspondence& match = matches_[i];
+          const bool first = match.alignment != alignments_;
+          if (first) {
+            match.alignment = alignments_;
+            match.map_index = PriorMap::kNoPoint;
+          }
+          if (first || (position - match.searched_at).squaredNorm() > research_sq) {
+            match.searched_at = position;
+            anew[count] = &match;
+            moved[count++] = static_cast<std::uint32_t>(i);
+          } else if (match.planar) {
+            planes_.measure(match, i, position, pose.rotation);
+          }
+        }
+        planes_.search(std::span(anew).first(count), pose, gate);
+        for (std::size_t k = 0; k < count; ++k) {
+          Correspondence& match = *anew[k];
+          if (!match.planar) continue;
+          planes_.measure(match, moved[k], match.searched_at, pose.rotation);
+        }
+        collect(begin * stride, std::min(end * stride, planes_.size()), stride, gate,
+                collected_[chunk]);
+      });
   joinCollected();
   fillLanes(pose);
   association_ = {pose, stride, gate};
@@ -202,7 +124,7 @@ bool Registration::holdsAt(const Pose& pose, double gate, std::size_t stride) co
   if (association_.stride != stride || association_.gate != gate) return false;
   const Pose& before = association_.pose;
   const double turned = (pose.rotation - before.rotation).norm() / std::numbers::sqrt2;
-  return (pose.position - before.position).norm() + turned * reach_m_ <
+  return (pose.position - before.position).norm() + turned * planes_.reach() <
          kKeptShare * settings_.research_distance_m;
 }
 
@@ -233,7 +155,7 @@ void Registration::fillLanes(const Pose& pose) {
                [&](std::size_t, std::size_t begin, std::size_t end) {
                  for (std::size_t k = begin; k < end; ++k) {
                    const Correspondence& match = matches_[matched_[k]];
-                   lanes_.set(k, toVec(points_.points[matched_[k]]), R_body_local * match.normal,
+                   lanes_.set(k, planes_.point(matched_[k]), R_body_local * match.normal,
                               match.residual, match.sigma * match.sigma);
                  }
                });
@@ -254,11 +176,11 @@ double Registration::robustScale(std::size_t sample) {
 PlaneRow Registration::rowOf(std::size_t point, const Mat3& R_body_local, double scale) const {
   const Correspondence& match = matches_[point];
   PlaneRow row;
-  row.point_body = toVec(points_.points[point]);
+  row.point_body = planes_.point(point);
   row.normal_body = R_body_local * match.normal;
   row.residual = match.residual;
   row.range_factor = match.range_factor;
-  row.range_variance = range_variance_[point];
+  row.range_variance = planes_.rangeVariance(point);
   row.normal_sigma = match.normal_sigma;
   row.surface_sigma = match.surface_sigma;
   row.robust_weight = robustWeight(match.residual, scale * scale * match.sigma * match.sigma);
@@ -274,7 +196,7 @@ void Registration::fillRows(const Pose& pose, double scale) {
                [&](std::size_t, std::size_t begin, std::size_t end) {
                  for (std::size_t k = begin; k < end; ++k) {
                    const std::uint32_t i = matched_[k];
-                   measure(matches_[i], i, pose * toVec(points_.points[i]), pose.rotation);
+                   planes_.measure(matches_[i], i, pose * planes_.point(i), pose.rotation);
                    rows_[k] = rowOf(i, R_body_local, scale);
                  }
                });
@@ -314,6 +236,11 @@ std::array<MatchDirection, 6> Registration::glimpse(const Pose& pose, double sca
   return allFull(observed) || step == 1 ? observed : look(1);
 }
 
+MotionProbe::Answer Registration::probe(const Motion& motion) const {
+  return MotionProbe(planes_, matches_, result_.pose, result_.scale, result_.gate, arena_)
+      .ask(motion);
+}
+
 void Registration::summarize(double scale, Alignment& alignment) {
   alignment.near = near_;
   alignment.matched = static_cast<int>(matched_.size());
@@ -343,10 +270,10 @@ Alignment Registration::align(const Pose& start, const AlignSchedule& schedule) 
   bool rough = true, look = true, weak = false;
   double scale = 1, widening = 0;
   rows_.clear();
-  matches_.resize(points_.points.size());
+  matches_.resize(planes_.size());
   ++alignments_;
   association_ = {};
-  const std::size_t coarse = std::max<std::size_t>(points_.points.size() / kCoarsePoints, 1);
+  const std::size_t coarse = std::max<std::size_t>(planes_.size() / kCoarsePoints, 1);
   for (int i = 0; i < schedule.max_iterations && !alignment.converged; ++i) {
     {
       const AddTime time(alignment.timing.association_s);
@@ -391,6 +318,7 @@ Alignment Registration::align(const Pose& start, const AlignSchedule& schedule) 
   } else {
     associate(pose, schedule.gate_m, alignment.iterations, 1);
   }
+  result_ = {pose, scale, association_.gate};
   fillRows(pose, scale);
   summarize(scale, alignment);
   return alignment;

@@ -4,9 +4,11 @@
 
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "matched_lanes.h"
+#include "motion_probe.h"
 #include "paloc/core/map_matcher.h"
 #include "paloc/core/pose.h"
 #include "paloc/map/degeneracy.h"
@@ -15,6 +17,7 @@
 #include "paloc/map/prior_map.h"
 #include "paloc/map/scan_averaging.h"
 #include "paloc/map/surface_patches.h"
+#include "plane_search.h"
 
 namespace paloc {
 
@@ -51,20 +54,24 @@ struct Alignment {
 class Registration {
  public:
   Registration(const PriorMap& map, const MatcherSettings& settings, tbb::task_arena& arena)
-      : map_(map), settings_(settings), arena_(arena) {}
+      : settings_(settings), arena_(arena), planes_(map, settings) {}
 
   /// The points (body frame, m) to be registered next, how many returns each is the mean of, and
   /// where their rays start.
-  void setPoints(AveragedPoints averaged_body, const Vec3& sensor_position_body);
-  const std::vector<Point3f>& points() const { return points_.points; }
-  const AveragedPoints& averaged() const { return points_; }
-  const Vec3& sensorPosition() const { return sensor_body_; }
+  void setPoints(AveragedPoints averaged_body, const Vec3& sensor_position_body) {
+    planes_.setPoints(std::move(averaged_body), sensor_position_body);
+  }
+  const std::vector<Point3f>& points() const { return planes_.averaged().points; }
+  const AveragedPoints& averaged() const { return planes_.averaged(); }
+  const Vec3& sensorPosition() const { return planes_.sensorPosition(); }
 
   /// Registers the points from a start. A direction that the map does not fix is held at the start.
   Alignment align(const Pose& start, const AlignSchedule& schedule);
 
   /// Rows of the last alignment, at its result.
   const std::vector<PlaneRow>& rows() const { return rows_; }
+  /// Whether the points would lie worse with the body moved from there.
+  MotionProbe::Answer probe(const Motion& motion) const;
   struct Shared {
     Mat6 spread;  // sharedSpread()
     std::vector<SurfacePatch> patches;
@@ -74,7 +81,7 @@ class Registration {
 
  private:
   // So small that the first steps, too, are shared among threads.
-  static constexpr std::size_t kChunk = 64;
+  static constexpr std::size_t kChunk = PlaneSearch::kMost;
 
   /// Of a chunk of points those with a plane, ascending, and how many have any map point near.
   struct Collected {
@@ -82,27 +89,7 @@ class Registration {
     std::uint32_t count;
     int near;
   };
-  struct Correspondence {
-    std::uint32_t alignment = 0;  // in which it was sought
-    Vec3 searched_at = Vec3::Zero();
-    Vec3 normal = Vec3::Zero();  // of the plane, local frame
-    double height = 0;           // the plane is normal . x = height
-    Vec3 map_point = Vec3::Zero();
-    double distance = 0;      // to the map point, when searched
-    double fit_variance = 0;  // of the plane's height at its centroid
-    double normal_sigma = 0;
-    double surface_sigma = 0;
-    double residual = 0, sigma = 0;  // at the last pose, unweighted
-    double range_factor = 0;         // normal . ray
-    std::uint32_t map_index = PriorMap::kNoPoint;
-    bool near = false, planar = false;
-  };
-
   void associate(const Pose& pose, double gate, int iteration, std::size_t stride);
-  void search(std::span<const std::uint32_t> points, const Pose& pose, float reach);
-  void take(Correspondence& match, const PriorMap::Nearest& nearest, const Vec3& from_sensor) const;
-  void measure(Correspondence& match, std::size_t point, const Vec3& position,
-               const Mat3& rotation) const;
   void collect(std::size_t begin, std::size_t end, std::size_t stride, double gate,
                Collected& collected) const;
   void joinCollected();
@@ -115,13 +102,9 @@ class Registration {
   std::array<MatchDirection, 6> glimpse(const Pose& pose, double scale) const;
   void summarize(double scale, Alignment& alignment);
 
-  const PriorMap& map_;
   const MatcherSettings& settings_;
   tbb::task_arena& arena_;
-  AveragedPoints points_;
-  std::vector<Vec3> rays_;              // unit, body frame
-  std::vector<double> range_variance_;  // of each point (m2)
-  Vec3 sensor_body_ = Vec3::Zero();
+  PlaneSearch planes_;
   std::vector<Correspondence> matches_;
   std::vector<Collected> collected_;
   std::vector<std::uint32_t> matched_;  // points with a plane, ascending
@@ -133,8 +116,11 @@ class Registration {
     double gate = 0;
   } association_;
   std::uint32_t alignments_ = 0;  // so far
-  double reach_m_ = 0;            // of the farthest point from the body
-  std::vector<PlaneRow> rows_;    // one per matched point
+  struct {
+    Pose pose;
+    double scale = 1, gate = 0;
+  } result_;                    // of the last alignment
+  std::vector<PlaneRow> rows_;  // one per matched point
   std::vector<float> scratch_;
   int near_ = 0;
 };

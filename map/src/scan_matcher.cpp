@@ -63,11 +63,20 @@ class ScanMatcher::Work {
         .max_iterations = settings_.max_iterations,
         .start_sigma_m = sigma_position};
     const Alignment alignment = registration_.align(toLocal(guess), schedule);
-    tbb::parallel_invoke([&] { fill(alignment, answer); }, [&] { addSpectrum(answer.spectrum); });
-    if (answer.accepted() && stepTooLarge(guess, answer, sigma_position, sigma_rotation)) {
-      answer.refusal = MatchRefusal::kLargeStep;
-    }
-    return answer;
+    std::optional<Pose> better;
+    tbb::parallel_invoke([&] { better = fill(alignment, answer, true); },
+                         [&] { addSpectrum(answer.spectrum); });
+    const auto refuseTooLarge = [&](MapMatch& match) {
+      if (match.accepted() && stepTooLarge(guess, match, sigma_position, sigma_rotation)) {
+        match.refusal = MatchRefusal::kLargeStep;
+      }
+    };
+    refuseTooLarge(answer);
+    if (!better) return answer;
+    MapMatch there = answer;
+    fill(registration_.align(*better, schedule), there, true);
+    refuseTooLarge(there);
+    return there.accepted() ? there : answer;
   }
 
   MapMatch locate(const Scan& scan, StartGuess guess) {
@@ -92,7 +101,7 @@ class ScanMatcher::Work {
     MapMatch answer = begin(scan, rough);
     if (answer.refusal == MatchRefusal::kNoScan || tooFew(answer)) return answer;
     const RoughStart found = searchAround(registration_, *map_, settings_, toLocal(rough));
-    fill(found.alignment, answer);
+    fill(found.alignment, answer, false);
     tellEvidence(found.evidence, answer);
     const Vec6 step = boxminus(fromMrpt(answer.T_map_body), rough);
     if (answer.accepted() && (step.head<3>().norm() > settings_.locate_max_step_m ||
@@ -148,7 +157,7 @@ class ScanMatcher::Work {
       answer.refusal = found.refusal;
       return answer;
     }
-    fill(found.alignment, answer);
+    fill(found.alignment, answer, false);
     tellEvidence(found.evidence, answer);
     answer.runner_up = found.runner_up;
     if (answer.accepted()) answer.refusal = found.refusal;
@@ -200,7 +209,8 @@ class ScanMatcher::Work {
     return true;
   }
 
-  void fill(const Alignment& alignment, MapMatch& answer) {
+  // Returns where the scan lies better, where it was asked and does.
+  std::optional<Pose> fill(const Alignment& alignment, MapMatch& answer, bool probing) {
     const Stopwatch stopwatch;
     timing_.association_s = alignment.timing.association_s;
     timing_.solve_s = alignment.timing.solve_s;
@@ -213,11 +223,20 @@ class ScanMatcher::Work {
     answer.residual_median_m = alignment.residual_median_m;
     answer.iterations = alignment.iterations;
     answer.refusal = gate(alignment, answer);
+    std::optional<Pose> better;
     if (!registration_.rows().empty()) {
       std::optional<DirectionObserver> observer;
+      const MotionCheck worse = [&](const Motion& motion) {
+        const MotionProbe::Answer probed = registration_.probe(motion);
+        if (probed.better) better = probed.better;
+        return probed.clearness;
+      };
       Registration::Shared shared;
       tbb::parallel_invoke(
-          [&] { observer.emplace(registration_.rows(), settings_.normal_noise_rad); },
+          [&] {
+            observer.emplace(registration_.rows(), settings_.normal_noise_rad,
+                             probing ? worse : MotionCheck());
+          },
           [&] { shared = registration_.sharedErrorsOfRows(); });
       const ObservedDirections observed = observer->under(shared.spread);
       answer.directions = observed.directions;
@@ -232,6 +251,7 @@ class ScanMatcher::Work {
       if (answer.accepted()) addSurfaces(shared.patches, local, answer);
     }
     timing_.information_s = stopwatch.seconds();
+    return better;
   }
 
   void addSurfaces(const std::vector<SurfacePatch>& patches, const Pose& local, MapMatch& answer) {

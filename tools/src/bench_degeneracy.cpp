@@ -78,6 +78,9 @@ LabelledDirections Place::labelsAt(const synth::SensorModel& sensor, const Pose&
 void listDirections(std::ostream& list, const BenchDegeneracyRow& row, std::size_t pose,
                     const Pose& T_map_body, const LabelledDirections& labels,
                     const MapMatch& match) {
+  // Of the position in the map's frame, of the rotation on the right.
+  const Vec6 error = boxminus(fromMrpt(match.T_map_body), T_map_body);
+  const Vec3 errors[2] = {error.head<3>(), T_map_body.rotation * error.tail<3>()};
   for (std::size_t i = 0; i < 6; ++i) {
     const MatchDirection& d = match.directions[i];
     const Vec3 axis = T_map_body.rotation * d.axis_body;
@@ -85,10 +88,10 @@ void listDirections(std::ostream& list, const BenchDegeneracyRow& row, std::size
     list << row.scene << ',' << row.sensor << ',' << pose << ',' << i << ','
          << toString(match.refusal) << ',' << static_cast<int>(labels.label[i]) << ','
          << labels.sigma[i] << ',' << label_axis.x() << ',' << label_axis.y() << ','
-         << label_axis.z() << ',' << static_cast<int>(d.cls) << ',' << d.sigma << ',' << d.share
-         << ',' << d.probability << ',' << axis.x() << ',' << axis.y() << ',' << axis.z() << ','
-         << T_map_body.position.x() << ',' << T_map_body.position.y() << ','
-         << T_map_body.position.z() << '\n';
+         << label_axis.z() << ',' << static_cast<int>(d.cls) << ',' << d.sigma << ','
+         << errors[i / 3].dot(axis) << ',' << d.share << ',' << d.probability << ',' << axis.x()
+         << ',' << axis.y() << ',' << axis.z() << ',' << T_map_body.position.x() << ','
+         << T_map_body.position.y() << ',' << T_map_body.position.z() << '\n';
   }
 }
 
@@ -129,7 +132,7 @@ std::vector<BenchDegeneracyRow> benchDegeneracy(const BenchDegeneracySettings& s
   if (!settings.list_file.empty()) {
     list.open(settings.list_file);
     list << "scene,sensor,pose,direction,match,label,label_sigma,label_axis_x,label_axis_y,"
-            "label_axis_z,class,sigma,share,probability,axis_x,axis_y,axis_z,x_m,y_m,z_m\n";
+            "label_axis_z,class,sigma,error,share,probability,axis_x,axis_y,axis_z,x_m,y_m,z_m\n";
   }
   std::vector<BenchDegeneracyRow> rows;
   for (const std::string& scene : scenes) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <span>
 
 #include "paloc/core/export.h"
@@ -9,6 +10,15 @@
 #include "paloc/map/map_information.h"
 
 namespace paloc {
+
+/// A small motion: translation v (m) and rotation w (rad) in the body frame.
+struct Motion {
+  Vec3 v = Vec3::Zero(), w = Vec3::Zero();
+};
+
+/// How clearly a scan would lie worse on the map with the body moved along a motion, to either
+/// side: below 0 it would lie better somewhere, from 1 on it would lie clearly worse everywhere.
+using MotionCheck = std::function<double(const Motion&)>;
 
 /// The six directions of a pose as the map sees them, and the information that is left when the
 /// weak ones have been scaled down.
@@ -50,7 +60,11 @@ PALOC_EXPORT ObservedDirections observeDirections(std::span<const PlaneRow> rows
 /// The same in two parts. The first is all that takes time and needs no spread.
 class PALOC_EXPORT DirectionObserver {
  public:
-  DirectionObserver(std::span<const PlaneRow> rows, double normal_noise_rad);
+  /// `worse`, if there is one, is asked of a translation that some 120 rows or fewer tell most of,
+  /// which may be wrong together, at the edge of a shelf: it is none where the scan would lie
+  /// better elsewhere; with 50 rows or fewer already where it would not lie clearly worse.
+  DirectionObserver(std::span<const PlaneRow> rows, double normal_noise_rad,
+                    const MotionCheck& worse = {});
   /// Of the rows as independent ones (leastSquares), nothing scaled down.
   const Mat6& information() const { return geometry_; }
   /// Without their sigmas.

@@ -1,0 +1,117 @@
+#include "motion_probe.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "parallel_chunks.h"
+
+namespace paloc {
+namespace {
+
+// How far the points are moved. Nearer, planes sought anew are noise for the most part.
+constexpr std::array kProbesM = {0.06, 0.1, 0.15};
+constexpr double kClearly = 2, kBeyondDoubt = 6;  // standard deviations
+constexpr std::size_t kMostPoints = 400;
+constexpr double kKernel = 3;  // as that of the registration
+
+double robust(double z) { return z * z / (1 + z * z / (kKernel * kKernel)); }
+
+// Of the points, the root mean square of how far the motion moves them.
+double lengthOf(const Motion& motion, const PlaneSearch& planes) {
+  double sum = 0;
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    sum += (motion.v + motion.w.cross(planes.point(i))).squaredNorm();
+  }
+  return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(planes.size(), 1)));
+}
+
+Pose movedBy(const Pose& pose, const Motion& motion) {
+  return {pose.position + pose.rotation * motion.v, pose.rotation * so3::exp(motion.w)};
+}
+
+}  // namespace
+
+// Those points that such a motion moves off their planes by more than their noise, the most of
+// these where there are very many.
+std::vector<std::uint32_t> MotionProbe::pointsThatSee(const Motion& moved) const {
+  std::vector<std::pair<double, std::uint32_t>> seeing;  // by how many sigmas, less than zero
+  for (std::size_t i = 0; i < matches_.size(); ++i) {
+    const Correspondence& match = matches_[i];
+    if (!match.planar || !match.near || match.distance > within_m_) continue;
+    const Vec3 m = pose_.rotation * (moved.v + moved.w.cross(planes_.point(i)));
+    const double sigmas = std::abs(match.normal.dot(m)) / (scale_ * match.sigma);
+    if (sigmas > 1) seeing.emplace_back(-sigmas, static_cast<std::uint32_t>(i));
+  }
+  const std::size_t count = std::min(seeing.size(), kMostPoints);
+  std::partial_sort(seeing.begin(), seeing.begin() + static_cast<std::ptrdiff_t>(count),
+                    seeing.end());
+  std::vector<std::uint32_t> points(count);
+  std::transform(seeing.begin(), seeing.begin() + static_cast<std::ptrdiff_t>(count),
+                 points.begin(), [](const auto& point) { return point.second; });
+  return points;
+}
+
+MotionProbe::Change MotionProbe::changeOf(std::span<const std::uint32_t> points,
+                                          const Pose& pose) const {
+  std::array<Correspondence, PlaneSearch::kMost> there;
+  std::array<Correspondence*, PlaneSearch::kMost> sought{};
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    there[k] = matches_[points[k]];
+    there[k].searched_at = pose * planes_.point(points[k]);
+    sought[k] = &there[k];
+  }
+  planes_.search(std::span(sought).first(points.size()), pose, within_m_);
+  Change change;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (!there[k].planar) continue;
+    const Correspondence& here = matches_[points[k]];
+    planes_.measure(there[k], points[k], there[k].searched_at, pose.rotation);
+    const double worse = robust(there[k].residual / (scale_ * there[k].sigma)) -
+                         robust(here.residual / (scale_ * here.sigma));
+    change.sum += worse;
+    change.squares += worse * worse;
+  }
+  return change;
+}
+
+MotionProbe::Change MotionProbe::changeBy(const Motion& moved, const Pose& pose) const {
+  const std::vector<std::uint32_t> points = pointsThatSee(moved);
+  std::vector<Change> parts(chunkCount(points.size(), PlaneSearch::kMost));
+  forEachChunk(arena_, points.size(), PlaneSearch::kMost,
+               [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+                 parts[chunk] = changeOf(std::span(points).subspan(begin, end - begin), pose);
+               });
+  Change all;
+  for (const Change& part : parts) {
+    all.sum += part.sum;
+    all.squares += part.squares;
+  }
+  return all;
+}
+
+MotionProbe::Answer MotionProbe::ask(const Motion& motion) const {
+  const double length = lengthOf(motion, planes_);
+  Answer answer{std::numeric_limits<double>::infinity(), {}};
+  double least = -kClearly;
+  for (const double probe_m : kProbesM) {
+    double nearer = std::numeric_limits<double>::infinity();
+    for (const double by : {probe_m / length, -probe_m / length}) {
+      const Motion moved{by * motion.v, by * motion.w};
+      const Pose pose = movedBy(pose_, moved);
+      const double significance = changeBy(moved, pose).significance();
+      nearer = std::min(nearer, significance);
+      answer.clearness = std::min(answer.clearness, significance / kClearly);
+      if (significance >= least) continue;
+      least = significance;
+      answer.better = pose;
+    }
+    if (nearer > kBeyondDoubt) break;
+  }
+  return answer;
+}
+
+}  // namespace paloc

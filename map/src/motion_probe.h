@@ -1,0 +1,63 @@
+#pragma once
+
+#include <tbb/task_arena.h>
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "paloc/core/pose.h"
+#include "paloc/map/degeneracy.h"
+#include "plane_search.h"
+
+namespace paloc {
+
+/// Asks whether a scan would lie worse on the map with the body moved, its planes sought anew
+/// there. A few points at an edge are matched with whatever face is near and then seem to hold the
+/// body; but moved, they lie as well on other faces.
+class MotionProbe {
+ public:
+  /// `matches` are those at the pose, one a point, and `scale` that of their sigmas (robust, at
+  /// least 1). All are to outlive the probe.
+  MotionProbe(const PlaneSearch& planes, std::span<const Correspondence> matches,
+              const Pose& T_local_body, double scale, double within_m, tbb::task_arena& arena)
+      : planes_(planes),
+        matches_(matches),
+        pose_(T_local_body),
+        scale_(scale),
+        within_m_(within_m),
+        arena_(arena) {}
+
+  struct Answer {
+    double clearness = 0;
+    std::optional<Pose> better;
+  };
+  /// How clearly the scan lies worse whichever way along the motion (body frame) it is moved, by 6
+  /// to 15 cm at the points: below 0 it lies better somewhere, from 1 on it lies clearly worse
+  /// everywhere. And where it lies clearly better, if anywhere.
+  ///
+  /// Of rho(z) = z^2 / (1 + z^2 / k^2), z the residual in sigmas, k the kernel's width, the changes
+  /// are summed over the points that see the motion here and have a plane there, too. Clearly: the
+  /// sum is twice the root of the sum of their squares. So four points can tell, when they all do.
+  Answer ask(const Motion& motion) const;
+
+ private:
+  struct Change {
+    double sum = 0, squares = 0;
+    /// In standard deviations.
+    double significance() const { return squares > 0 ? sum / std::sqrt(squares) : 0; }
+  };
+  Change changeBy(const Motion& moved, const Pose& pose) const;
+  Change changeOf(std::span<const std::uint32_t> points, const Pose& pose) const;
+  std::vector<std::uint32_t> pointsThatSee(const Motion& moved) const;
+
+  const PlaneSearch& planes_;
+  std::span<const Correspondence> matches_;
+  const Pose& pose_;
+  double scale_, within_m_;
+  tbb::task_arena& arena_;
+};
+
+}  // namespace paloc
