@@ -34,7 +34,11 @@ struct IterationLimits {
 /// Along the directions that the scan leaves open the state is considered, not estimated (see
 /// ConsiderUpdate): an open position of large variance would follow from the smallest error of the
 /// direction that is believed to be open.
-template <class State, int D, int N>
+///
+/// Of the state's dimensions the first M are what scans alone can tell; the others (a calibration)
+/// may move what is measured as well. Where a direction is open, what is measured stays as it is
+/// along it, whichever of them moves it.
+template <class State, int D, int N, int M = D>
 class IteratedUpdate {
  public:
   using Vector = Eigen::Matrix<double, D, 1>;
@@ -67,8 +71,7 @@ class IteratedUpdate {
       PointToPlaneSums<N> sums = matches.sums();
       if (widening > 0 || i == 0) {
         informative.emplace(sums.information, matches.normalNoise());
-        open_ = to_measured.transpose() * informative->open();
-        update_.begin(covariance, open_);
+        consider(covariance, to_measured, informative->open());
         widening = std::min(widening, displacementSigma<D>(update_.touched(), lever_m));
       }
       informative->apply(sums);
@@ -107,6 +110,18 @@ class IteratedUpdate {
   const Directions& open() const { return open_; }
 
  private:
+  // Directions `open` of what the scan measures.
+  void consider(const Matrix& covariance, const ToMeasured& to_measured,
+                const NullDirections<N>& open) {
+    if constexpr (M == D) {
+      open_ = to_measured.transpose() * open;
+      update_.begin(covariance, open_);
+    } else {
+      open_.setZero(D, open.cols());
+      open_.template topRows<M>() = to_measured.template leftCols<M>().transpose() * open;
+      update_.begin(covariance, open_, open.transpose() * to_measured);
+    }
+  }
   static bool isSmall(const Vector& step) {
     return step.template head<3>().norm() < kConvergedM &&
            step.template segment<3>(3).norm() < kConvergedRad;
