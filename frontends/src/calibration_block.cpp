@@ -20,6 +20,7 @@ CalibrationBlock::CalibrationBlock(const FastLioSettings& settings) {
 void CalibrationBlock::begin(const LioState& x, const SensorMotion& during_scan,
                              LioMatrix& of_state) {
   sensor = during_scan;
+  scans = 0;
   const WithState B = lidarByCalibration(with(x));
   const double offset_variance =
       covariance(lio_calibration::kTimeOffset, lio_calibration::kTimeOffset);

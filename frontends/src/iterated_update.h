@@ -25,6 +25,8 @@ struct IterationLimits {
   /// A step that is so small in the sigmas of the result settles it, too; 0: only one that is small
   /// in itself.
   double settled_sigmas = 0;
+  /// Dimensions of the state beyond those that scans alone can tell are left as they are.
+  bool consider_rest = false;
 };
 
 /// The update of an iterated error-state Kalman filter with the points of a scan, each onto its
@@ -47,6 +49,8 @@ class IteratedUpdate {
   using Directions = typename ConsiderUpdate<D>::Directions;
 
   explicit IteratedUpdate(const IterationLimits& limits) : limits_(limits) {}
+  /// From now on.
+  void considerRest() { limits_.consider_rest = true; }
 
   /// `matches` is asked, at each state x: associate(x, gate_m, least_voxel_m), size(),
   /// weigh(widening_m), sums() and normalNoise(), as of PlaneMatches. `toMeasured(x)` is the
@@ -117,9 +121,20 @@ class IteratedUpdate {
       open_ = to_measured.transpose() * open;
       update_.begin(covariance, open_);
     } else {
-      open_.setZero(D, open.cols());
+      constexpr int kRest = D - M;
+      const Eigen::Index k = open.cols(), rest = limits_.consider_rest ? kRest : 0;
+      open_.setZero(D, k);
       open_.template topRows<M>() = to_measured.template leftCols<M>().transpose() * open;
-      update_.begin(covariance, open_, open.transpose() * to_measured);
+      Eigen::MatrixXd along = Eigen::MatrixXd::Zero(k + rest, D);
+      along.topRows(k) = open.transpose() * to_measured;
+      Directions considered = Directions::Zero(D, k + rest);
+      considered.leftCols(k) = open_;
+      if (rest > 0) {
+        along.topRightCorner(k, kRest).setZero();
+        along.bottomRightCorner(kRest, kRest).setIdentity();
+        considered.bottomRightCorner(kRest, kRest).setIdentity();
+      }
+      update_.begin(covariance, considered, along);
     }
   }
   static bool isSmall(const Vector& step) {

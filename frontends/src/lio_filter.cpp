@@ -9,6 +9,17 @@ namespace paloc {
 namespace {
 
 constexpr double kLostSigma_m = 100;
+// Scans until a map that begins is good enough to tell the calibration: the first ones lie in it as
+// the first guess of the velocity has them.
+constexpr int kSettling = 10;
+// Normalized squared step of the LiDAR's pose, a degree of freedom, of an update that contradicts
+// the prediction (one in a thousand does by chance): it is not to move the calibration.
+constexpr double kContradiction = 3.7;
+
+double squaredStep(const CalibratedLioUpdate& update, const CalibratedLioState& prior) {
+  const Vec6 step = boxminus(update.state(), prior).head<6>();
+  return ImuAgreement::squared(step, update.gained().topLeftCorner<6, 6>());
+}
 
 }  // namespace
 
@@ -89,7 +100,6 @@ std::size_t LioFilter::updateCalibrated(const std::vector<MeasuredPoint>& points
                                         const FreeFallScan& scan, const Vec3& sensor_body,
                                         const LocalVoxelMap& map, bool rigid) {
   const double ageing = rigid ? 0 : 1;
-  CalibratedLioUpdate update({limits_.max_iterations, limits_.max_gate_m});
   const auto place = [&](const CalibratedLioState& s) -> const std::vector<PlacedPoint>& {
     placePoints(points, scan, sensor_body, s, ageing, placed_);
     return placed_;
@@ -97,11 +107,19 @@ std::size_t LioFilter::updateCalibrated(const std::vector<MeasuredPoint>& points
   auto matches = pointsOnPlanes<9>(matches_, map, ageing, place);
   CalibrationBlock& block = *calibration_;
   block.sensor = SensorMotion(scan, sensor_body);
+  ++block.scans;
   const CalibratedLioState prior = block.with(state_);
   const CalibratedLioMatrix S = toLidar(prior), joint = block.joint(covariance_);
-  if (!update.run(prior, S * joint * S.transpose(), rmsRange(points), matches,
-                  calibratedToMeasured)) {
-    return matches_.size();
+  const bool unsettled = block.scans < kSettling || !agreement_.agrees();
+  CalibratedLioUpdate update({limits_.max_iterations, limits_.max_gate_m, 0, unsettled});
+  const auto run = [&] {
+    return update.run(prior, S * joint * S.transpose(), rmsRange(points), matches,
+                      calibratedToMeasured);
+  };
+  if (!run()) return matches_.size();
+  if (!unsettled && squaredStep(update, prior) > kContradiction) {
+    update.considerRest();
+    if (!run()) return matches_.size();
   }
   const CalibratedLioVector step = boxminus(update.state(), prior);
   if (!rigid) agreement_.compare(step.head<6>(), update.gained().topLeftCorner<6, 6>());

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "imu_clock.h"
+#include "paloc/frontends/imu_clock.h"
 #include "paloc/frontends/odometry_frontend.h"
 #include "paloc/frontends/scan_tracker.h"
 #include "sensor_intake.h"

@@ -39,6 +39,7 @@ struct PALOC_EXPORT CalibrationBlock {
   CalibrationMatrix covariance = CalibrationMatrix::Zero();
   WithState with_state = WithState::Zero();  ///< E[error of the state . that of the calibration]
   SensorMotion sensor;                       ///< during the last scan
+  int scans = 0;                             ///< since the map began
   double applied_s = 0;                      ///< of the time offset, in the stamps already
 
   // Before the last prediction: E[error of the calibration now . that of the pose then], and the

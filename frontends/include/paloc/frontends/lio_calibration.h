@@ -34,7 +34,7 @@ struct LioCalibration {
 /// force are taken as even.
 struct SensorMotion {
   SensorMotion() = default;
-  SensorMotion(const FreeFallScan& scan, const Vec3& sensor_body);
+  PALOC_EXPORT SensorMotion(const FreeFallScan& scan, const Vec3& sensor_body);
 
   Vec3 sensor_body = Vec3::Zero();       ///< its place by the recording (m)
   Vec3 rate_body = Vec3::Zero();         ///< of the body (rad/s)
