@@ -122,9 +122,9 @@ TEST(LioCalibration, JacobianIsExactWhereTheBodyDoesNotTurn) {
       const CalibratedLioVector step = kStep * CalibratedLioVector::Unit(k);
       const auto plus = placed(points, scan, boxplus(s, step));
       const auto minus = placed(points, scan, boxplus(s, -step));
-      // Within a slot of the scan the force moves the body evenly; and the lever of a turn is taken
-      // from where the force has the body, f tau^2 / 2 off.
-      const double fallen = 0.5 * kForce.norm() * age_s * age_s;
+      // Within a slot of the scan the force moves the body evenly. Left out is what turns with the
+      // LiDAR besides: where force and gravity have the body, tau before the end.
+      const double fallen = 0.5 * (kForce.norm() + s.x.gravity_odom.norm()) * age_s * age_s;
       const bool late = k == lio::kDim + lc::kTimeOffset;
       const double tolerance = late ? 0.02 : 1e-4 + 1.1 * fallen;
       for (std::size_t i = 0; i < points.size(); ++i) {
