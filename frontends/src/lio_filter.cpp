@@ -12,6 +12,9 @@ constexpr double kLostSigma_m = 100;
 // Scans until a map that begins is good enough to tell the calibration: the first ones lie in it as
 // the first guess of the velocity has them.
 constexpr int kSettling = 10;
+// Of the variance of the IMU's noise (see ImuAgreement): an IMU that disagrees by more with what
+// the scans say, whatever the calibration, is not to tell it.
+constexpr double kMostImuFactor = 4;
 // Normalized squared step of the LiDAR's pose, a degree of freedom, of an update that contradicts
 // the prediction (one in a thousand does by chance): it is not to move the calibration.
 constexpr double kContradiction = 3.7;
@@ -110,7 +113,8 @@ std::size_t LioFilter::updateCalibrated(const std::vector<MeasuredPoint>& points
   ++block.scans;
   const CalibratedLioState prior = block.with(state_);
   const CalibratedLioMatrix S = toLidar(prior), joint = block.joint(covariance_);
-  const bool unsettled = block.scans < kSettling || !agreement_.agrees();
+  const bool unsettled =
+      block.scans < kSettling || !agreement_.agrees() || agreement_.imuFactor() > kMostImuFactor;
   CalibratedLioUpdate update({limits_.max_iterations, limits_.max_gate_m, 0, unsettled});
   const auto run = [&] {
     return update.run(prior, S * joint * S.transpose(), rmsRange(points), matches,

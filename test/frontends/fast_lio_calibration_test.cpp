@@ -117,5 +117,13 @@ TEST(FastLioCalibration, OfWhatIsRightItSaysSo) {
   EXPECT_LT(so3::log(error.rotation).norm(), 0.005);
 }
 
+// A start so quick that the first scans fit no state of the filter: nothing is told from them.
+TEST(FastLioCalibration, FromAWildStartItDoesNoHarm) {
+  const Output output = run(recordingOf(test::sway(), 80), estimating(true), "fast_lio");
+  const Pose error = errorOf(test::sway(), output.frames[5], output.frames.back());
+  EXPECT_LT(error.position.norm(), 0.02);
+  EXPECT_LT(so3::log(error.rotation).norm(), 0.005);
+}
+
 }  // namespace
 }  // namespace paloc
