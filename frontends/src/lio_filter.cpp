@@ -24,6 +24,17 @@ double squaredStep(const CalibratedLioUpdate& update, const CalibratedLioState& 
   return ImuAgreement::squared(step, update.gained().topLeftCorner<6, 6>());
 }
 
+// `settled`: the calibration may be told.
+template <class Matches>
+bool runOn(Matches& matches, const CalibratedLioState& prior, const CalibratedLioMatrix& covariance,
+           double lever_m, bool settled, CalibratedLioUpdate& update) {
+  if (!settled) update.considerRest();
+  if (!update.run(prior, covariance, lever_m, matches, calibratedToMeasured)) return false;
+  if (!settled || squaredStep(update, prior) <= kContradiction) return true;
+  update.considerRest();
+  return update.run(prior, covariance, lever_m, matches, calibratedToMeasured);
+}
+
 }  // namespace
 
 void LioFilter::begin(const LioState& state, const LioMatrix& covariance) {
@@ -113,17 +124,11 @@ std::size_t LioFilter::updateCalibrated(const std::vector<MeasuredPoint>& points
   ++block.scans;
   const CalibratedLioState prior = block.with(state_);
   const CalibratedLioMatrix S = toLidar(prior), joint = block.joint(covariance_);
-  const bool unsettled =
-      block.scans < kSettling || !agreement_.agrees() || agreement_.imuFactor() > kMostImuFactor;
-  CalibratedLioUpdate update({limits_.max_iterations, limits_.max_gate_m, 0, unsettled});
-  const auto run = [&] {
-    return update.run(prior, S * joint * S.transpose(), rmsRange(points), matches,
-                      calibratedToMeasured);
-  };
-  if (!run()) return matches_.size();
-  if (!unsettled && squaredStep(update, prior) > kContradiction) {
-    update.considerRest();
-    if (!run()) return matches_.size();
+  const bool settled =
+      block.scans >= kSettling && agreement_.agrees() && agreement_.imuFactor() <= kMostImuFactor;
+  CalibratedLioUpdate update({limits_.max_iterations, limits_.max_gate_m});
+  if (!runOn(matches, prior, S * joint * S.transpose(), rmsRange(points), settled, update)) {
+    return matches_.size();
   }
   const CalibratedLioVector step = boxminus(update.state(), prior);
   if (!rigid) agreement_.compare(step.head<6>(), update.gained().topLeftCorner<6, 6>());
