@@ -50,4 +50,21 @@ Pose FreeFallScan::bodyAt(double age_s) const {
   return interpolate(poses_[slot], poses_[slot + 1], x - static_cast<double>(slot));
 }
 
+Vec3 FreeFallScan::velocity(const Vec3& point_body, double age_s) const {
+  const double x = std::clamp((duration_s_ - age_s) * per_s_, 0.0, static_cast<double>(kSlots));
+  const auto slot = std::min(static_cast<std::size_t>(x), static_cast<std::size_t>(kSlots - 1));
+  return per_s_ * (poses_[slot + 1] * point_body - poses_[slot] * point_body);
+}
+
+Vec3 FreeFallScan::meanRate() const {
+  if (duration_s_ <= 0) return Vec3::Zero();
+  return so3::log(poses_.front().rotation) / -duration_s_;
+}
+
+// Of an even force f the body is at f tau^2 / 2.
+Vec3 FreeFallScan::meanForce() const {
+  if (duration_s_ <= 0) return Vec3::Zero();
+  return 2 / (duration_s_ * duration_s_) * poses_.front().position;
+}
+
 }  // namespace paloc

@@ -18,14 +18,18 @@ constexpr double kLeastGain = 1e-6;  // m, rad
 // degree of freedom, is the normalized innovation squared, and 1 if IMU and scans are as good as
 // they are said to be (Y. Bar-Shalom et al., "Estimation with Applications to Tracking and
 // Navigation", 2001, section 5.4.2).
-void ImuAgreement::compare(const Vec6& step, const Mat6& gained) {
+double ImuAgreement::squared(const Vec6& step, const Mat6& gained) {
   Eigen::Matrix<double, 6, 6> covariance = gained;
   covariance.diagonal().array() += kLeastGain * kLeastGain;
   const Eigen::Matrix<double, 6, 1> d = step;
-  const double squared = d.dot(covariance.ldlt().solve(d)) / 6;
-  if (!std::isfinite(squared) || squared < 0) return;
-  disagreement_ += kLearning * (std::min(squared, kMostDisagreement) - disagreement_);
-  const double change = std::clamp(squared, 1 / kMostChange, kMostChange);
+  return d.dot(covariance.ldlt().solve(d)) / 6;
+}
+
+void ImuAgreement::compare(const Vec6& step, const Mat6& gained) {
+  const double norm = squared(step, gained);
+  if (!std::isfinite(norm) || norm < 0) return;
+  disagreement_ += kLearning * (std::min(norm, kMostDisagreement) - disagreement_);
+  const double change = std::clamp(norm, 1 / kMostChange, kMostChange);
   imu_factor_ = std::clamp(imu_factor_ * std::pow(change, kFollowing), 1.0, kMostFactor);
 }
 

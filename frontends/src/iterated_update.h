@@ -25,6 +25,8 @@ struct IterationLimits {
   /// A step that is so small in the sigmas of the result settles it, too; 0: only one that is small
   /// in itself.
   double settled_sigmas = 0;
+  /// Dimensions of the state beyond those that scans alone can tell are left as they are.
+  bool consider_rest = false;
 };
 
 /// The update of an iterated error-state Kalman filter with the points of a scan, each onto its
@@ -34,7 +36,11 @@ struct IterationLimits {
 /// Along the directions that the scan leaves open the state is considered, not estimated (see
 /// ConsiderUpdate): an open position of large variance would follow from the smallest error of the
 /// direction that is believed to be open.
-template <class State, int D, int N>
+///
+/// Of the state's dimensions the first M are what scans alone can tell; the others (a calibration)
+/// may move what is measured as well. Where a direction is open, what is measured stays as it is
+/// along it, whichever of them moves it.
+template <class State, int D, int N, int M = D>
 class IteratedUpdate {
  public:
   using Vector = Eigen::Matrix<double, D, 1>;
@@ -43,6 +49,8 @@ class IteratedUpdate {
   using Directions = typename ConsiderUpdate<D>::Directions;
 
   explicit IteratedUpdate(const IterationLimits& limits) : limits_(limits) {}
+  /// From now on.
+  void considerRest() { limits_.consider_rest = true; }
 
   /// `matches` is asked, at each state x: associate(x, gate_m, least_voxel_m), size(),
   /// weigh(widening_m), sums() and normalNoise(), as of PlaneMatches. `toMeasured(x)` is the
@@ -67,8 +75,7 @@ class IteratedUpdate {
       PointToPlaneSums<N> sums = matches.sums();
       if (widening > 0 || i == 0) {
         informative.emplace(sums.information, matches.normalNoise());
-        open_ = to_measured.transpose() * informative->open();
-        update_.begin(covariance, open_);
+        consider(covariance, to_measured, informative->open());
         widening = std::min(widening, displacementSigma<D>(update_.touched(), lever_m));
       }
       informative->apply(sums);
@@ -107,6 +114,29 @@ class IteratedUpdate {
   const Directions& open() const { return open_; }
 
  private:
+  // Directions `open` of what the scan measures.
+  void consider(const Matrix& covariance, const ToMeasured& to_measured,
+                const NullDirections<N>& open) {
+    if constexpr (M == D) {
+      open_ = to_measured.transpose() * open;
+      update_.begin(covariance, open_);
+    } else {
+      constexpr int kRest = D - M;
+      const Eigen::Index k = open.cols(), rest = limits_.consider_rest ? kRest : 0;
+      open_.setZero(D, k);
+      open_.template topRows<M>() = to_measured.template leftCols<M>().transpose() * open;
+      Eigen::MatrixXd along = Eigen::MatrixXd::Zero(k + rest, D);
+      along.topRows(k) = open.transpose() * to_measured;
+      Directions considered = Directions::Zero(D, k + rest);
+      considered.leftCols(k) = open_;
+      if (rest > 0) {
+        along.topRightCorner(k, kRest).setZero();
+        along.bottomRightCorner(kRest, kRest).setIdentity();
+        considered.bottomRightCorner(kRest, kRest).setIdentity();
+      }
+      update_.begin(covariance, considered, along);
+    }
+  }
   static bool isSmall(const Vector& step) {
     return step.template head<3>().norm() < kConvergedM &&
            step.template segment<3>(3).norm() < kConvergedRad;

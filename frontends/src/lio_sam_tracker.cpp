@@ -55,7 +55,7 @@ LioSamTracker::Outcome LioSamTracker::add(const LidarFrame& frame, const ImuBuff
   if (!begun_ || pause_s > settings_.lio_sam.max_gap_s || smoother_.isLost()) {
     return begin(frame, imu);
   }
-  inertia_.follow(frame, imu, scan_.end_ns, smoother_.state());
+  inertia_.follow(timesOf(frame), imu, scan_.end_ns, smoother_.state());
   scan_ = inertia_.scan();
   predict();
   if (first_.scans_since == 0) startMoving();
@@ -81,7 +81,7 @@ LioSamTracker::Outcome LioSamTracker::add(const LidarFrame& frame, const ImuBuff
 LioSamTracker::Outcome LioSamTracker::begin(const LidarFrame& frame, const ImuBuffer& imu) {
   LioState state = begun_ ? smoother_.state() : LioState{};
   begun_ = false;
-  const auto first = firstScan(frame, imu, settings_, state);
+  const auto first = firstScan(timesOf(frame), imu, settings_, state);
   if (!first) return Outcome::kRefused;
   begun_ = true;
   scan_ = first->scan;

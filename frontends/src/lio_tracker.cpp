@@ -4,10 +4,15 @@
 #include <cmath>
 #include <utility>
 
+#include "calibration_report.h"
+
 namespace paloc {
 namespace {
 
 constexpr double kLeastMatched = 0.1;  // of the points: fewer, and the scan is not used
+// Of the time from scan to scan: by more the stamps are not shifted at once, so that no time runs
+// backwards.
+constexpr double kMostShift = 0.25;
 
 // Up follows from the mean force f = b_a + R^T (a - g) of the first scan, so the error of g is that
 // of the bias, R db_a, and the body's acceleration. In g's tangent space it is B^T (g x dg) / g^2.
@@ -38,15 +43,28 @@ LioTracker::LioTracker(const FrontendSettings& settings)
       filter_({settings.fast_lio.max_iterations, settings.local_map.noise_floor_m,
                settings.local_map.max_gate_m}),
       map_(settings.local_map),
-      selection_(settings) {}
+      selection_(settings) {
+  const FastLioSettings& s = settings.fast_lio;
+  if (s.estimate_extrinsic || s.estimate_time_offset) filter_.calibrate(CalibrationBlock(s));
+}
 
 LioTracker::Outcome LioTracker::add(const LidarFrame& frame, const ImuBuffer& imu, bool has_times) {
-  sensor_body_ = frame.T_body_lidar.position;
-  const double pause_s = secondsBetween(scan_.end_ns, frame.stamp_ns);
+  T_body_lidar_ = frame.T_body_lidar;
+  const TimeNs before_ns = scan_.end_ns;
+  const Outcome outcome = track(frame, imu, has_times);
+  T_odom_body_ = filter_.odometryPose();
+  if (outcome == Outcome::kTracked) shiftStamps(secondsBetween(before_ns, scan_.end_ns));
+  return outcome;
+}
+
+LioTracker::Outcome LioTracker::track(const LidarFrame& frame, const ImuBuffer& imu,
+                                      bool has_times) {
+  const ScanTimes times = timesOf(frame, imu_late_ns_);
+  const double pause_s = secondsBetween(scan_.end_ns, times.start_ns);
   if (!begun_ || pause_s > settings_.local_map.max_gap_s || filter_.isLost()) {
     return begin(frame, imu, has_times);
   }
-  inertia_.follow(frame, imu, scan_.end_ns, filter_.state());
+  inertia_.follow(times, imu, scan_.end_ns, filter_.state());
   scan_ = inertia_.scan();
   filter_.predict(inertia_.motion(), inertia_.noise());
   selectPoints(frame, has_times);
@@ -68,13 +86,18 @@ LioTracker::Outcome LioTracker::begin(const LidarFrame& frame, const ImuBuffer& 
                                       bool has_times) {
   LioState state = begun_ ? filter_.state() : LioState{};
   begun_ = false;
-  const auto first = firstScan(frame, imu, settings_, state);
+  const auto first = firstScan(timesOf(frame, imu_late_ns_), imu, settings_, state);
   if (!first) return Outcome::kRefused;
   scan_ = first->scan;
   begun_ = true;
   state.v_odom = Vec3::Zero();
   state.gravity_odom = -settings_.gravity_mps2 * (state.T_odom_body.rotation * first->up_body);
-  filter_.begin(state, firstCovariance(settings_.fast_lio, state, first->at_rest));
+  const LioMatrix covariance = firstCovariance(settings_.fast_lio, state, first->at_rest);
+  if (filter_.calibration()) {
+    filter_.begin(state, covariance, T_body_lidar_.position, *scan_.fall);
+  } else {
+    filter_.begin(state, covariance);
+  }
   map_.clear();
   selectPoints(frame, has_times);
   addToMap(map_points_, scan_, true);
@@ -92,6 +115,7 @@ void LioTracker::startMoving() {
   LioState moved = predicted.state();
   moved.v_odom += v;
   moved.T_odom_body.position += dt_s * v;
+  filter_ = predicted;
   filter_.restart(first_.state);
   map_.clear();
   addToMap(std::exchange(first_.points, {}), first_.scan);
@@ -101,12 +125,12 @@ void LioTracker::startMoving() {
 
 std::size_t LioTracker::update(bool rigid) {
   StageScope stage(timer_, "registration");
-  return filter_.update(points_, *scan_.fall, sensor_body_, map_, rigid);
+  return filter_.update(points_, *scan_.fall, T_body_lidar_.position, map_, rigid);
 }
 
 void LioTracker::addToMap(const std::vector<MeasuredPoint>& points, const KeptScan& scan,
                           bool rigid) {
-  for (const PlacedPoint& p : filter_.place(points, *scan.fall, sensor_body_, rigid)) {
+  for (const PlacedPoint& p : filter_.place(points, *scan.fall, T_body_lidar_.position, rigid)) {
     map_.add(p.point_odom, p.ray);
   }
   map_.endScan(filter_.state().T_odom_body.position);
@@ -119,6 +143,39 @@ void LioTracker::selectPoints(const LidarFrame& frame, bool has_times) {
                     nullptr, map_points_);
   points_ =
       everyNth(map_points_, static_cast<std::size_t>(settings_.local_map.registration_points));
+}
+
+// By the LiDAR's clock.
+ScanMotion LioTracker::motionOf(const KeptScan& scan, const LioState& x) const {
+  if (!filter_.calibration()) return motionDuring(scan, x);
+  const CalibrationBlock& block = *filter_.calibration();
+  const TimeNs late_ns = nsFromSeconds(block.imuLateS());
+  KeptScan by_lidar = scan;
+  by_lidar.start_ns -= late_ns;
+  by_lidar.end_ns -= late_ns;
+  return motionDuring(by_lidar, x);
+}
+
+Pose LioTracker::mountOf(const Pose& T_body_lidar) const {
+  return filter_.calibration() ? filter_.calibration()->value.corrected(T_body_lidar)
+                               : T_body_lidar;
+}
+
+void LioTracker::shiftStamps(double scan_interval_s) {
+  if (!settings_.fast_lio.estimate_time_offset) return;
+  filter_.takeTimeOffset(kMostShift * scan_interval_s);
+  imu_late_ns_ = nsFromSeconds(filter_.calibration()->applied_s);
+}
+
+std::vector<std::string> LioTracker::notes(int scans) const {
+  std::vector<std::string> sentences = InertialTracker::notes(scans);
+  if (filter_.calibration() && begun_) {
+    for (const std::string& sentence :
+         reportOf(*filter_.calibration(), T_body_lidar_, settings_.fast_lio)) {
+      sentences.push_back(sentence);
+    }
+  }
+  return sentences;
 }
 
 }  // namespace paloc

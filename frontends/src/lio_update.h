@@ -1,6 +1,7 @@
 #pragma once
 
 #include "iterated_update.h"
+#include "paloc/frontends/lio_calibration.h"
 #include "paloc/frontends/lio_state.h"
 
 namespace paloc {
@@ -14,5 +15,9 @@ inline LioUpdate::ToMeasured lioToMeasured(const LioState& x) {
   derivative.block<3, 3>(lio::kRotation, lio::kRotation) = x.T_odom_body.rotation;
   return derivative;
 }
+
+/// The same with a calibration.
+using CalibratedLioUpdate =
+    IteratedUpdate<CalibratedLioState, CalibratedLioState::kDim, 9, lio::kDim>;
 
 }  // namespace paloc

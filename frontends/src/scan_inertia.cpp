@@ -49,30 +49,27 @@ ScanMotion motionDuring(const KeptScan& scan, const LioState& x) {
   return ScanMotion(input);
 }
 
-std::optional<FirstScan> firstScan(const LidarFrame& frame, const ImuBuffer& imu,
+std::optional<FirstScan> firstScan(ScanTimes scan, const ImuBuffer& imu,
                                    const FrontendSettings& settings, const LioState& x) {
-  const TimeNs end_ns = frame.endNs();
+  const TimeNs end_ns = scan.end_ns;
   // A scan without duration has the force of the moment before it.
-  const TimeNs start_ns = std::min(frame.stamp_ns, end_ns - nsFromSeconds(0.02));
+  const TimeNs start_ns = std::min(scan.start_ns, end_ns - nsFromSeconds(0.02));
   const auto mean = imu.integrate(start_ns, end_ns, settings.max_imu_gap_s, settings.imu_noise,
                                   x.bias_acc, x.bias_gyro);
   if (!mean || mean->delta_v.norm() == 0) return std::nullopt;
   FirstScan first;
-  first.scan = {
-      frame.stamp_ns, end_ns,
-      FreeFallScan(imu, frame.stamp_ns, end_ns, settings.max_imu_gap_s, x.bias_acc, x.bias_gyro)};
+  first.scan = {scan, FreeFallScan(imu, scan.start_ns, end_ns, settings.max_imu_gap_s, x.bias_acc,
+                                   x.bias_gyro)};
   if (!first.scan.fall->ok()) return std::nullopt;
   first.up_body = (mean->delta_R.transpose() * mean->delta_v).normalized();
   first.at_rest = isAtRest(imu, start_ns, end_ns);
   return first;
 }
 
-void ScanInertia::follow(const LidarFrame& frame, const ImuBuffer& imu, TimeNs last_ns,
-                         const LioState& x) {
-  const TimeNs end_ns = frame.endNs();
-  scan_ = {
-      frame.stamp_ns, end_ns,
-      FreeFallScan(imu, frame.stamp_ns, end_ns, settings_.max_imu_gap_s, x.bias_acc, x.bias_gyro)};
+void ScanInertia::follow(ScanTimes scan, const ImuBuffer& imu, TimeNs last_ns, const LioState& x) {
+  const TimeNs end_ns = scan.end_ns;
+  scan_ = {scan, FreeFallScan(imu, scan.start_ns, end_ns, settings_.max_imu_gap_s, x.bias_acc,
+                              x.bias_gyro)};
   noise_ = settings_.imu_noise;
   motion_ =
       imu.integrate(last_ns, end_ns, settings_.max_imu_gap_s, noise_, x.bias_acc, x.bias_gyro);
@@ -83,12 +80,12 @@ void ScanInertia::follow(const LidarFrame& frame, const ImuBuffer& imu, TimeNs l
     return;
   }
   ++without_;
-  const TimeNs from_ns = std::min(last_ns, frame.stamp_ns);
+  const TimeNs from_ns = std::min(last_ns, scan.start_ns);
   const ImuBuffer even = evenMotion(x, last_rate_body_, from_ns, end_ns);
   const double any_gap_s = secondsBetween(from_ns, end_ns) + 1;
   noise_.accelerometer_noise_density_mps2_sqrthz = kUnknownForce;
   noise_.gyroscope_noise_density_radps_sqrthz = kUnknownRate;
-  scan_.fall.emplace(even, frame.stamp_ns, end_ns, any_gap_s, x.bias_acc, x.bias_gyro);
+  scan_.fall.emplace(even, scan.start_ns, end_ns, any_gap_s, x.bias_acc, x.bias_gyro);
   motion_ = even.integrate(last_ns, end_ns, any_gap_s, noise_, x.bias_acc, x.bias_gyro);
 }
 

@@ -10,9 +10,16 @@
 
 namespace paloc {
 
-/// A scan's time, and how the IMU says that the body moved during it.
-struct KeptScan {
+/// When a scan began and ended, by the IMU's clock.
+struct ScanTimes {
   TimeNs start_ns = 0, end_ns = 0;
+};
+inline ScanTimes timesOf(const LidarFrame& frame, TimeNs imu_late_ns = 0) {
+  return {frame.stamp_ns + imu_late_ns, frame.endNs() + imu_late_ns};
+}
+
+/// A scan's time, and how the IMU says that the body moved during it.
+struct KeptScan : ScanTimes {
   std::optional<FreeFallScan> fall;
 };
 
@@ -26,7 +33,7 @@ struct FirstScan {
   bool at_rest = false;          ///< the IMU feels nothing but gravity and its biases
 };
 /// Nothing where the IMU does not cover the scan.
-std::optional<FirstScan> firstScan(const LidarFrame& frame, const ImuBuffer& imu,
+std::optional<FirstScan> firstScan(ScanTimes scan, const ImuBuffer& imu,
                                    const FrontendSettings& settings, const LioState& x);
 
 /// How well rest is known (standard deviations, m/s and m/s2), where the IMU tells of it.
@@ -42,7 +49,7 @@ class ScanInertia {
 
   /// From `last_ns`, where the state was `x`, to the end of the scan. Where the IMU does not cover
   /// all of it, an even motion is assumed, with the noise of what a body may do.
-  void follow(const LidarFrame& frame, const ImuBuffer& imu, TimeNs last_ns, const LioState& x);
+  void follow(ScanTimes scan, const ImuBuffer& imu, TimeNs last_ns, const LioState& x);
 
   bool measured() const { return measured_; }
   const KeptScan& scan() const { return scan_; }

@@ -71,9 +71,9 @@ void SensorIntake::addLidar(const mrpt::obs::CObservation& observation) {
   waiting_.push_back(std::move(*frame));
 }
 
-const LidarFrame* SensorIntake::readyScan(const std::function<bool(TimeNs)>& also_reaches) const {
+LidarFrame* SensorIntake::readyScan(const std::function<bool(TimeNs)>& also_reaches) {
   if (waiting_.empty()) return nullptr;
-  const LidarFrame& frame = waiting_.front();
+  LidarFrame& frame = waiting_.front();
   const TimeNs end = frame.endNs();
   const bool imu = !imu_samples_.empty() && imu_samples_.newestNs() >= end;
   const bool late = secondsBetween(end, *newest_ns_) > settings_.max_wait_s;

@@ -37,9 +37,7 @@ class SensorIntake {
 
   /// The oldest scan that waits, if it waits no longer; null if there is none. Valid until
   /// popScan(). `also_reaches` tells whether what else the scan waits for has come to its end.
-  const LidarFrame* readyScan(const std::function<bool(TimeNs)>& also_reaches = [](TimeNs) {
-    return true;
-  }) const;
+  LidarFrame* readyScan(const std::function<bool(TimeNs)>& also_reaches);
   void popScan();
 
   /// The recording has come to a time, by another stream.

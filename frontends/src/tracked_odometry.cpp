@@ -38,24 +38,30 @@ void TrackedOdometry::add(const mrpt::obs::CObservation& observation) {
 }
 
 void TrackedOdometry::giveOutWhatIsReady() {
-  while (const LidarFrame* frame = intake_.readyScan()) {
-    giveOutImu(frame->endNs());
+  const auto imu_reaches = [this](TimeNs end_ns) {
+    return intake_.imu().newestNs() >= end_ns + tracker_->imuLateNs();
+  };
+  while (LidarFrame* frame = intake_.readyScan(imu_reaches)) {
+    const TimeNs late_ns = tracker_->imuLateNs();
+    giveOutImu(frame->endNs() + late_ns);
     giveOutFrame(*frame);
     intake_.imu().forgetBefore(frame->stamp_ns);
-    imu_.forgetBefore(frame->endNs());
+    imu_.forgetBefore(frame->endNs() + std::min(late_ns, tracker_->imuLateNs()));
     intake_.popScan();
   }
   if (const auto until_ns = intake_.imuReleaseNs()) giveOutImu(*until_ns);
 }
 
 void TrackedOdometry::giveOutImu(TimeNs until_ns) {
+  imu_clock_.reach(until_ns, tracker_->imuLateNs());
   while (auto sample = intake_.imu().takeUntil(until_ns)) {
     imu_.add(*sample);
+    sample->t_ns = imu_clock_.toLidar(sample->t_ns);
     events_.emplace_back(*sample);
   }
 }
 
-void TrackedOdometry::giveOutFrame(const LidarFrame& frame) {
+void TrackedOdometry::giveOutFrame(LidarFrame& frame) {
   OdometryFrame result;
   result.t_ns = frame.endNs();
   const bool deskew = !frame.points_lidar.empty() && intake_.canDeskew(frame);
@@ -80,6 +86,7 @@ void TrackedOdometry::giveOutFrame(const LidarFrame& frame) {
     case ScanTracker::Outcome::kTracked:
       break;
   }
+  frame.T_body_lidar = tracker_->mountOf(frame.T_body_lidar);
   result.T_odom_body = toMrpt(tracker_->T_odom_body());
   if (!first_) {
     const ScanMotion motion = withImu(frame, tracker_->scanMotion());
@@ -114,6 +121,7 @@ void TrackedOdometry::releaseFirst() {
     return frame && frame->t_ns == first_->frame.endNs();
   });
   const ScanMotion motion = tracker_->firstScanMotion();
+  first_->frame.T_body_lidar = tracker_->mountOf(first_->frame.T_body_lidar);
   std::get<OdometryFrame>(*event).scan = scanOf(first_->frame, first_->deskew ? &motion : nullptr);
   first_.reset();
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "paloc/frontends/imu_clock.h"
 #include "paloc/frontends/odometry_frontend.h"
 #include "paloc/frontends/scan_tracker.h"
 #include "sensor_intake.h"
@@ -18,7 +19,8 @@ namespace paloc {
 /// or where the tracker lost itself, the odometry goes on from its last pose with a new map, and
 /// the first frame does not `continue`. A scan that cannot be registered comes with the pose
 /// predicted and the covariance of the prediction. The first frame is given out with the second,
-/// which tells how the body moved during it.
+/// which tells how the body moved during it. All that is given out has the LiDAR's clock, where the
+/// tracker knows of an offset.
 class TrackedOdometry : public OdometryFrontend {
  public:
   TrackedOdometry(std::string name, std::unique_ptr<ScanTracker> tracker,
@@ -36,7 +38,7 @@ class TrackedOdometry : public OdometryFrontend {
  private:
   void giveOutWhatIsReady();
   void giveOutImu(TimeNs until_ns);
-  void giveOutFrame(const LidarFrame& frame);
+  void giveOutFrame(LidarFrame& frame);
   void releaseFirst();
   ScanMotion withImu(const LidarFrame& frame, const ScanMotion& by_tracker) const;
   std::shared_ptr<const Scan> scanOf(const LidarFrame& frame, const ScanMotion* motion);
@@ -45,7 +47,8 @@ class TrackedOdometry : public OdometryFrontend {
   std::string name_;
   FrontendSettings settings_;
   SensorIntake intake_;
-  ImuBuffer imu_;
+  ImuBuffer imu_;  // by its own clock
+  ImuClock imu_clock_;
   std::unique_ptr<ScanTracker> tracker_;
   StageTimer* timer_ = nullptr;
   std::deque<FrontendEvent> events_;

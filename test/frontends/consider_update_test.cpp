@@ -69,6 +69,24 @@ TEST_F(ConsiderUpdateTest, WhatIsConsideredStays) {
   EXPECT_LT((after - before).norm(), 1e-9 * before.norm());
 }
 
+// Across what is considered may be what some functional does not see: that stays as it is, and
+// with it whatever goes with the rest.
+TEST_F(ConsiderUpdateTest, WhatAFunctionalTellsStays) {
+  const Matrix any = random();
+  const Eigen::MatrixXd tilted =
+      (considered_ + 0.5 * across_ * any.topLeftCorner(4, 2)).transpose();
+  const Eigen::MatrixXd along = (tilted * considered_).inverse() * tilted;
+  Update update;
+  update.begin(covariance_, considered_, along);
+  update.measure(H_.transpose() * H_);
+  const Vector step = update.step(Vector::Zero(), H_.transpose() * random().col(0));
+  EXPECT_GT(step.norm(), 0.01);
+  EXPECT_LT((along * step).norm(), 1e-9 * step.norm() + 1e-9);
+  const Eigen::MatrixXd before = along * covariance_ * along.transpose();
+  const Eigen::MatrixXd after = along * update.covariance() * along.transpose();
+  EXPECT_LT((after - before).norm(), 1e-8 * before.norm());
+}
+
 // However much the rest goes with what is considered: the measurement tells it whole.
 TEST_F(ConsiderUpdateTest, TheRestIsKnownAsWellAsIfItWereAll) {
   using Rest = Eigen::Matrix<double, kDim - kConsidered, kDim - kConsidered>;

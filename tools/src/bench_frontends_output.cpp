@@ -85,7 +85,7 @@ std::string tableOf(const BenchFrontendsResult& result) {
            stage.percentile(0.99));
   }
   for (const FrontendRun& run : result.runs) {
-    for (const std::string& note : run.notes) append(out, "note: %s\n", note.c_str());
+    for (const std::string& note : run.notes) out += "note: " + note + "\n";
     if (result.runs.size() > 1) break;
   }
   return out;

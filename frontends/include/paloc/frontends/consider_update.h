@@ -27,9 +27,16 @@ class ConsiderUpdate {
     touched_ = covariance;
     if (considered.cols() == 0) return;
     const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> along(considered);
-    const Matrix across = Matrix::Identity() - considered * along.pseudoInverse();
-    const Matrix rest = across * covariance * across.transpose();
-    touched_ = 0.5 * (rest + rest.transpose());
+    project(considered * along.pseudoInverse());
+  }
+
+  /// The same where what is across E is not orthogonal to it, but what the rows of `along` (k x D),
+  /// with along E = 1, do not see.
+  void begin(const Matrix& covariance, const Directions& considered,
+             const Eigen::Ref<const Eigen::MatrixXd>& along) {
+    before_ = covariance;
+    touched_ = covariance;
+    if (considered.cols() > 0) project(considered * along);
   }
 
   /// Takes the measurement's information W, which is to be zero along E.
@@ -61,6 +68,12 @@ class ConsiderUpdate {
   }
 
  private:
+  void project(const Matrix& along) {
+    const Matrix across = Matrix::Identity() - along;
+    const Matrix rest = across * before_ * across.transpose();
+    touched_ = 0.5 * (rest + rest.transpose());
+  }
+
   Matrix before_ = Matrix::Zero(), touched_ = Matrix::Zero(), information_ = Matrix::Zero();
   Eigen::PartialPivLU<Matrix> system_;
 };

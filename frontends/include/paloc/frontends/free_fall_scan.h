@@ -30,6 +30,15 @@ class PALOC_EXPORT FreeFallScan {
   /// The body in the frame in free fall, T_fall(t): the identity at the end of the scan.
   Pose bodyAt(double age_s) const;
 
+  double durationS() const { return duration_s_; }
+  /// How fast u of a point moves where the point is measured later than it was (m/s); zero for a
+  /// scan without duration, as are the means.
+  Vec3 velocity(const Vec3& point_body, double age_s) const;
+  /// Means over the scan, in the body frame at its end, where rate and force are even: rate
+  /// (rad/s) and specific force (m/s2).
+  Vec3 meanRate() const;
+  Vec3 meanForce() const;
+
  private:
   static constexpr int kSlots = 32;
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "paloc/frontends/calibration_block.h"
 #include "paloc/frontends/free_fall_scan.h"
 #include "paloc/frontends/imu_agreement.h"
 #include "paloc/frontends/lio_prediction.h"
@@ -25,14 +27,28 @@ class PALOC_EXPORT LioFilter {
 
   explicit LioFilter(const Limits& limits) : limits_(limits), matches_(limits.noise_floor_m) {}
 
+  /// Makes the calibration a part of the state, before begin(): nothing else costs anything.
+  void calibrate(const CalibrationBlock& block) { calibration_ = block; }
+
   /// Begins at a state, with its covariance.
   void begin(const LioState& state, const LioMatrix& covariance);
+
+  /// The same where there is a calibration and the map begins with a scan; `sensor_body` is the
+  /// LiDAR's place by the recording (m).
+  void begin(const LioState& state, const LioMatrix& covariance, const Vec3& sensor_body,
+             const FreeFallScan& scan);
 
   /// Takes another state as mean, with the same covariance.
   void restart(const LioState& state) { state_ = state; }
 
   const LioState& state() const { return state_; }
   const LioMatrix& covariance() const { return covariance_; }
+  const std::optional<CalibrationBlock>& calibration() const { return calibration_; }
+  void takeTimeOffset(double most_s) { calibration_->takeTimeOffset(most_s); }
+
+  /// The body's pose as the motions from scan to scan add up to it: that of the state, but that it
+  /// is not moved by what becomes known of the calibration.
+  Pose odometryPose() const;
 
   /// Moves on to the end of a scan. The pose before it becomes the one that motionCovariance()
   /// starts from.
@@ -56,8 +72,8 @@ class PALOC_EXPORT LioFilter {
                                         bool rigid = false);
 
   /// Covariance of the motion T_0^-1 T_1 since the prediction, in the tangent space [position in
-  /// body frame 0 (m), rotation on the right (rad)], T_0 as it was estimated then: errors that both
-  /// poses share cancel.
+  /// body frame 0 (m), rotation on the right (rad)], T_0 as it was estimated then, or with a
+  /// calibration as the last scan tells it: errors that both poses share cancel.
   ///
   /// Where IMU and scans disagree by more than they should, over the last seconds, it is as much
   /// larger.
@@ -70,6 +86,9 @@ class PALOC_EXPORT LioFilter {
   double imuFactor() const { return agreement_.imuFactor(); }
 
  private:
+  std::size_t updateCalibrated(const std::vector<MeasuredPoint>& points, const FreeFallScan& scan,
+                               const Vec3& sensor_body, const LocalVoxelMap& map, bool rigid);
+
   Limits limits_;
   PlaneMatches matches_;
   LioState state_;
@@ -81,6 +100,8 @@ class PALOC_EXPORT LioFilter {
   Mat6 inertial_motion_ = Mat6::Identity();
   ImuAgreement agreement_;
   std::vector<PlacedPoint> placed_;
+  std::optional<CalibrationBlock> calibration_;
+  Pose odometry_0_;  // odometryPose() before the last prediction, where there is a calibration
 };
 
 }  // namespace paloc

@@ -44,6 +44,11 @@ class PALOC_EXPORT ScanTracker {
   /// Whether scanMotion() is by the IMU's samples; else those may tell it better.
   virtual bool usesImu() const { return true; }
   virtual std::size_t mapBytes() const = 0;
+  /// By how much the IMU's stamps are later than the LiDAR's, for the scan to come. A tracker that
+  /// says other than 0 is given both as they are, and takes account of it.
+  virtual TimeNs imuLateNs() const { return 0; }
+  /// Where the LiDAR sits, of what the recording says: as the scan that was added last tells it.
+  virtual Pose mountOf(const Pose& T_body_lidar) const { return T_body_lidar; }
   /// Which columns of the scans it wants, besides points and times.
   virtual LidarColumns columns() const { return {}; }
 
