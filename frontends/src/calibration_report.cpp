@@ -14,8 +14,9 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kSure = 5;  // sigmas
 
-std::string threeOf(const Vec3& v, const char* format) {
-  return text(figure(format, v.x()), ", ", figure(format, v.y()), ", ", figure(format, v.z()));
+std::string threeOf(const Vec3& v, const char* format, const char* between = ", ") {
+  return text(figure(format, v.x()), between, figure(format, v.y()), between,
+              figure(format, v.z()));
 }
 
 // Of a vector, in sigmas: the root of the mean of squares.
@@ -23,11 +24,12 @@ double sigmasOff(const Vec3& v, const Vec3& sigma) {
   return std::sqrt(v.cwiseQuotient(sigma).squaredNorm() / 3);
 }
 
+// As options take it: a word without spaces.
 std::string poseText(const Pose& T_body_lidar) {
   const mrpt::poses::CPose3D pose = toMrpt(T_body_lidar);
-  return text(threeOf(T_body_lidar.position, "%.4f"), ",", figure("%.3f", pose.yaw() / kDegree),
-              ",", figure("%.3f", pose.pitch() / kDegree), ",",
-              figure("%.3f", pose.roll() / kDegree));
+  return text(threeOf(T_body_lidar.position, "%.4f", ","), ",",
+              figure("%.3f", pose.yaw() / kDegree), ",", figure("%.3f", pose.pitch() / kDegree),
+              ",", figure("%.3f", pose.roll() / kDegree));
 }
 
 std::string extrinsic(const CalibrationBlock& block, const Pose& T_body_lidar) {
@@ -36,9 +38,9 @@ std::string extrinsic(const CalibrationBlock& block, const Pose& T_body_lidar) {
   const Vec3 sigma_turned = sigma.segment<3>(lio_calibration::kRotation);
   const Vec3 sigma_moved = sigma.segment<3>(lio_calibration::kPosition);
   std::string sentence =
-      text("fast_lio finds T_body_lidar turned by ", threeOf(turned / kDegree, "%.3f"),
+      text("fast_lio turns T_body_lidar by ", threeOf(turned / kDegree, "%.3f"),
            " deg about the body's axes (sigmas ", threeOf(sigma_turned / kDegree, "%.3f"),
-           ") and moved by ", threeOf(1e3 * moved, "%.1f"), " mm along them (sigmas ",
+           ") and moves it by ", threeOf(1e3 * moved, "%.1f"), " mm along them (sigmas ",
            threeOf(1e3 * sigma_moved, "%.1f"), ")");
   if (std::max(sigmasOff(turned, sigma_turned), sigmasOff(moved, sigma_moved)) > kSure) {
     sentence += text(": import the recording with --T-body-lidar ",

@@ -111,7 +111,7 @@ TEST(FastLioCalibration, SamplesComeByTheLidarsClockAndInOrder) {
 
 TEST(FastLioCalibration, OfWhatIsRightItSaysSo) {
   const Output output = run(recordingOf(calmWalk(), 80), estimating(true), "fast_lio");
-  EXPECT_TRUE(output.noted("fast_lio finds T_body_lidar turned by"));
+  EXPECT_TRUE(output.noted("fast_lio turns T_body_lidar by"));
   const Pose error = errorOf(calmWalk(), output.frames[5], output.frames.back());
   EXPECT_LT(error.position.norm(), 0.02);
   EXPECT_LT(so3::log(error.rotation).norm(), 0.005);
