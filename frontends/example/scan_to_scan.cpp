@@ -47,7 +47,7 @@ class ScanToScan : public ScanTracker {
     return 2 * matched_ > points_.size() ? Outcome::kTracked : Outcome::kCoasted;
   }
 
-  const Pose& T_odom_body() const override { return filter_.state().T_odom_body; }
+  const Pose& odometryPose() const override { return filter_.state().T_odom_body; }
   Mat6 motionCovariance() const override { return filter_.motionCovariance(); }
   ScanMotion scanMotion() const override {
     ScanMotionInput input;

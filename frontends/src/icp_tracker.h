@@ -22,7 +22,7 @@ class IcpTracker : public ScanTracker {
 
   Outcome add(const LidarFrame& frame, const ImuBuffer& imu, bool has_times) override;
 
-  const Pose& T_odom_body() const override { return filter_.state().T_odom_body; }
+  const Pose& odometryPose() const override { return filter_.state().T_odom_body; }
   Mat6 motionCovariance() const override { return filter_.motionCovariance(); }
   Mat6 inertialMotion() const override { return filter_.openMotion(); }
   ScanMotion scanMotion() const override { return motionDuring(scan_, filter_.state()); }

@@ -24,7 +24,7 @@ class LioSamTracker : public InertialTracker {
 
   Outcome add(const LidarFrame& frame, const ImuBuffer& imu, bool has_times) override;
 
-  const Pose& T_odom_body() const override { return smoother_.state().T_odom_body; }
+  const Pose& odometryPose() const override { return smoother_.state().T_odom_body; }
   Mat6 motionCovariance() const override { return smoother_.motionCovariance(); }
   Mat6 inertialMotion() const override { return smoother_.inertialMotion(); }
   ScanMotion scanMotion() const override { return motionDuring(scan_, smoother_.state()); }

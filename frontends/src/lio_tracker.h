@@ -26,7 +26,7 @@ class LioTracker : public InertialTracker {
 
   Outcome add(const LidarFrame& frame, const ImuBuffer& imu, bool has_times) override;
 
-  const Pose& T_odom_body() const override { return T_odom_body_; }
+  const Pose& odometryPose() const override { return T_odom_body_; }
   Mat6 motionCovariance() const override { return filter_.motionCovariance(); }
   Mat6 inertialMotion() const override { return filter_.inertialMotion(); }
   ScanMotion scanMotion() const override { return motionOf(scan_, filter_.state()); }

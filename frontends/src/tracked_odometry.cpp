@@ -87,7 +87,7 @@ void TrackedOdometry::giveOutFrame(LidarFrame& frame) {
       break;
   }
   frame.T_body_lidar = tracker_->mountOf(frame.T_body_lidar);
-  result.T_odom_body = toMrpt(tracker_->T_odom_body());
+  result.T_odom_body = toMrpt(tracker_->odometryPose());
   if (!first_) {
     const ScanMotion motion = withImu(frame, tracker_->scanMotion());
     result.continues = true;

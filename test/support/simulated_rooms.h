@@ -66,8 +66,12 @@ inline PointCloud sampleMap(const BoxWorld& world, double spacing_m, double nois
       if (world.isOpen(b, face)) continue;
       const int axis = face / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
       const Box& box = world.boxes[b];
-      for (double a = box.low[u]; a < box.high[u]; a += spacing_m) {
-        for (double c = box.low[v]; c < box.high[v]; c += spacing_m) {
+      const auto cells = [&](int along) {
+        return static_cast<int>(std::ceil((box.high[along] - box.low[along]) / spacing_m));
+      };
+      for (int i = 0; i < cells(u); ++i) {
+        for (int k = 0; k < cells(v); ++k) {
+          const double a = box.low[u] + i * spacing_m, c = box.low[v] + k * spacing_m;
           Vec3 p;
           p[axis] = (face % 2 == 1 ? box.high[axis] : box.low[axis]) + noise_m * normal(random);
           p[u] = std::min(a + spacing_m * uniform(random), box.high[u]);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "paloc/core/mrpt_pose.h"
+#include "paloc/core/text.h"
 #include "paloc/map/scan_matcher.h"
 #include "paloc/map/scan_thinning.h"
 #include "paloc/tools/bench_place.h"
@@ -138,7 +139,7 @@ std::vector<BenchDegeneracyRow> benchDegeneracy(const BenchDegeneracySettings& s
   for (const std::string& scene : scenes) {
     const Place place(scene, settings);
     for (const std::string& sensor : sensors) {
-      progress(scene + ", " + sensor);
+      progress(text(scene, ", ", sensor));
       rows.push_back(place.tryOut(sensor, list.is_open() ? &list : nullptr));
     }
   }

@@ -32,7 +32,8 @@ class PALOC_EXPORT ScanTracker {
   /// than all before.
   virtual Outcome add(const LidarFrame& frame, const ImuBuffer& imu, bool has_times) = 0;
 
-  virtual const Pose& T_odom_body() const = 0;
+  /// T_odom_body at the end of the scan that was added last.
+  virtual const Pose& odometryPose() const = 0;
   /// Of the motion since the last frame (see OdometryFrame).
   virtual Mat6 motionCovariance() const = 0;
   /// What of that motion only the prediction told (see OdometryFrame::inertial_motion).
