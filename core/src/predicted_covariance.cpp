@@ -20,7 +20,7 @@ Mat6 unmeasuredMotion(double dt_s, const EstimatorSettings& settings) {
 }
 
 Mat6 independentMotion(const OdometryFrame& frame) {
-  return frame.motion_covariance + kUnknownMotion * kUnknownMotion * frame.inertial_motion;
+  return frame.motion_covariance + kUnknownMotion * kUnknownMotion * frame.open_motion;
 }
 
 Mat6 predictedCovariance(const StateMatrix& last, double dt_s, MotionSource source,

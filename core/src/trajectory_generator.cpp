@@ -84,7 +84,7 @@ OdometryFrame TrajectoryGenerator::sinceLastNode(const OdometryFrame& frame) con
   OdometryFrame whole = frame;
   whole.continues = frame.continues && !odometry_broken_;
   whole.motion_covariance = independentMotion(frame) + motion_skipped_;
-  whole.inertial_motion.setZero();
+  whole.open_motion.setZero();
   return whole;
 }
 

@@ -24,7 +24,7 @@ class IcpTracker : public ScanTracker {
 
   const Pose& odometryPose() const override { return filter_.state().T_odom_body; }
   Mat6 motionCovariance() const override { return filter_.motionCovariance(); }
-  Mat6 inertialMotion() const override { return filter_.openMotion(); }
+  Mat6 openMotion() const override { return filter_.openMotion(); }
   ScanMotion scanMotion() const override { return motionDuring(scan_, filter_.state()); }
   ScanMotion firstScanMotion() const override { return motionDuring(first_.scan, first_.state); }
   bool usesImu() const override { return false; }

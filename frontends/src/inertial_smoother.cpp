@@ -238,7 +238,7 @@ void InertialSmoother::add(TimeNs t_ns, const FeatureMeasurement& scan, const Ve
     // Not the smoother's own: along open directions these are differences of large numbers.
     agreement_.compare(step.head<6>(), update.gained().topLeftCorner<6, 6>());
   }
-  inertial_motion_ =
+  open_motion_ =
       compare ? openDirectionsOfMotion(before, scan.open.topRows<6>()) : Mat6(Mat6::Identity());
   motion_covariance_ =
       covarianceOfMotion(before, state_.T_odom_body, covariance_before,

@@ -58,7 +58,7 @@ Pose LioFilter::odometryPose() const {
 void LioFilter::predict(const Preintegration& imu, const ImuNoise& noise) {
   if (calibration_) odometry_0_ = odometryPose();
   T_odom_body_0_ = state_.T_odom_body;
-  inertial_motion_.setIdentity();
+  open_motion_.setIdentity();
   covariance_0_ = covariance_.topLeftCorner<6, 6>();
   const LioMatrix F = lioTransition(state_, imu);
   cross_ = F * covariance_.leftCols<6>();
@@ -103,7 +103,7 @@ std::size_t LioFilter::update(const std::vector<MeasuredPoint>& points, const Fr
     agreement_.compare(boxminus(update.state(), state_).head<6>(),
                        update.gained().topLeftCorner<6, 6>());
   }
-  inertial_motion_ = openDirectionsOfMotion(T_odom_body_0_, update.open().topRows<6>());
+  open_motion_ = openDirectionsOfMotion(T_odom_body_0_, update.open().topRows<6>());
   covariance_ = update.covariance();
   cross_ = update.updated(cross_);
   state_ = update.state();
@@ -145,7 +145,7 @@ std::size_t LioFilter::updateCalibrated(const std::vector<MeasuredPoint>& points
   T_odom_body_0_ = before.pose;
   covariance_0_ = before.covariance;
   cross_ = before.cross.topRows<lio::kDim>();
-  inertial_motion_ = openDirectionsOfMotion(T_odom_body_0_, update.open().topRows<6>());
+  open_motion_ = openDirectionsOfMotion(T_odom_body_0_, update.open().topRows<6>());
   return matches_.size();
 }
 

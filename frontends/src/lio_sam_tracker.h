@@ -26,7 +26,7 @@ class LioSamTracker : public InertialTracker {
 
   const Pose& odometryPose() const override { return smoother_.state().T_odom_body; }
   Mat6 motionCovariance() const override { return smoother_.motionCovariance(); }
-  Mat6 inertialMotion() const override { return smoother_.inertialMotion(); }
+  Mat6 openMotion() const override { return smoother_.openMotion(); }
   ScanMotion scanMotion() const override { return motionDuring(scan_, smoother_.state()); }
   ScanMotion firstScanMotion() const override { return motionDuring(first_.scan, first_.state); }
 

@@ -28,7 +28,7 @@ class LioTracker : public InertialTracker {
 
   const Pose& odometryPose() const override { return T_odom_body_; }
   Mat6 motionCovariance() const override { return filter_.motionCovariance(); }
-  Mat6 inertialMotion() const override { return filter_.inertialMotion(); }
+  Mat6 openMotion() const override { return filter_.openMotion(); }
   ScanMotion scanMotion() const override { return motionOf(scan_, filter_.state()); }
   ScanMotion firstScanMotion() const override { return motionOf(first_.scan, first_.state); }
   TimeNs imuLateNs() const override { return imu_late_ns_; }

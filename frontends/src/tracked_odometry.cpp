@@ -93,7 +93,7 @@ void TrackedOdometry::giveOutFrame(LidarFrame& frame) {
     result.continues = true;
     result.motion_covariance = tracker_->motionCovariance();
     // Without an IMU in the estimator the tracker's guess, with its covariance, is all there is.
-    if (tracker_->usesImu() || motion.byImu()) result.inertial_motion = tracker_->inertialMotion();
+    if (tracker_->usesImu() || motion.byImu()) result.open_motion = tracker_->openMotion();
     result.scan = scanOf(frame, deskew ? &motion : nullptr);
   }
   events_.emplace_back(std::move(result));

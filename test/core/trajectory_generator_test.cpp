@@ -104,7 +104,7 @@ struct Simulation {
     if (inertial_along_x) {
       Vec6 along_x = Vec6::Zero();
       along_x.head<3>() = motion.pose((f - 1) * kFrame_s).rotation.transpose() * Vec3::UnitX();
-      frame.inertial_motion = along_x * along_x.transpose();
+      frame.open_motion = along_x * along_x.transpose();
     }
     auto scan = std::make_shared<Scan>();
     scan->end_ns = frame.t_ns;

@@ -124,7 +124,7 @@ double sigmaInATunnel(const test::SmoothMotion& motion, const ImuBuffer& imu, bo
 TEST_F(InertialSmootherTest, TellsWhatOfTheMotionIsTheImus) {
   smoother_.begin(0, stateOf(motion_, 0), {.sigma_velocity_mps = 0.1});
   step(1, poseMeasured(stateOf(motion_, 0.1), 5e-4));
-  EXPECT_TRUE(smoother_.inertialMotion().isZero());
+  EXPECT_TRUE(smoother_.openMotion().isZero());
   const Mat3 R_before = smoother_.state().T_odom_body.rotation;
   FeatureMeasurement measured = poseMeasured(stateOf(motion_, 0.2), 5e-4);
   measured.information(0, 0) = 0;  // odom x
@@ -133,7 +133,7 @@ TEST_F(InertialSmootherTest, TellsWhatOfTheMotionIsTheImus) {
   step(2, measured);
   Vec6 along_x = Vec6::Zero();  // in the body frame of the node before
   along_x.head<3>() = R_before.transpose() * Vec3::UnitX();
-  EXPECT_TRUE(smoother_.inertialMotion().isApprox(along_x * along_x.transpose(), 1e-3));
+  EXPECT_TRUE(smoother_.openMotion().isApprox(along_x * along_x.transpose(), 1e-3));
 }
 
 TEST_F(InertialSmootherTest, AnOpenDirectionThatWaversDoesNotTieThePositionDown) {

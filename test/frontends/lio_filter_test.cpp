@@ -33,7 +33,7 @@ TEST(LioFilter, ARoomTellsThePoseAndByItTheVelocity) {
   const Eigen::VectorXd sigma = filter.covariance().diagonal().cwiseSqrt();
   EXPECT_LT(sigma.head<6>().maxCoeff(), 0.002);
   EXPECT_GT(sigma.head<6>().minCoeff(), 1e-5);
-  EXPECT_TRUE(filter.inertialMotion().isZero());
+  EXPECT_TRUE(filter.openMotion().isZero());
 }
 
 TEST(LioFilter, WhatIsOpenStaysAsItWasPredicted) {
@@ -45,10 +45,10 @@ TEST(LioFilter, WhatIsOpenStaysAsItWasPredicted) {
   filter.predict(*imu.integrate(0, kEnd, 0.05, {}, Vec3::Zero(), Vec3::Zero()), {});
   const LioMatrix before = filter.covariance();
   const FreeFallScan scan(imu, kEnd, kEnd, 0.05, Vec3::Zero(), Vec3::Zero());
-  EXPECT_TRUE(filter.inertialMotion().isIdentity()) << "as long as no scan has told";
+  EXPECT_TRUE(filter.openMotion().isIdentity()) << "as long as no scan has told";
   filter.update(corridor.points, scan, Vec3::Zero(), corridor.map);
   const Vec6 along_x = Vec6::Unit(0);
-  EXPECT_TRUE(filter.inertialMotion().isApprox(along_x * along_x.transpose(), 0.02));
+  EXPECT_TRUE(filter.openMotion().isApprox(along_x * along_x.transpose(), 0.02));
   const LioMatrix after = filter.covariance();
   EXPECT_GT(after(lio::kPosition, lio::kPosition), 0.98 * before(lio::kPosition, lio::kPosition));
   EXPECT_GT(after(lio::kVelocity, lio::kVelocity), 0.98 * before(lio::kVelocity, lio::kVelocity));

@@ -26,7 +26,7 @@ struct OdometryFrame {
   /// errors of such motions go on from frame to frame, as those of the velocity do, and the
   /// estimator takes nothing from them, but what it has of the IMU itself. Zero where there is
   /// none.
-  Mat6 inertial_motion = Mat6::Zero();
+  Mat6 open_motion = Mat6::Zero();
   std::shared_ptr<const Scan> scan;  ///< may be null: a frame without a usable scan
 };
 

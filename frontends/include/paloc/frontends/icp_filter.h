@@ -63,7 +63,7 @@ class PALOC_EXPORT IcpFilter {
   /// Covariance of the motion T_0^-1 T_1 since the prediction, in the tangent space [position in
   /// body frame 0 (m), rotation on the right (rad)], T_0 as it was estimated then.
   Mat6 motionCovariance() const;
-  /// What of that motion no scan told, but the prediction (see OdometryFrame::inertial_motion).
+  /// What of that motion no scan told, but the prediction (see OdometryFrame::open_motion).
   const Mat6& openMotion() const { return open_motion_; }
 
  private:

@@ -55,8 +55,8 @@ class PALOC_EXPORT InertialSmoother {
   bool isLost() const;
   /// Of the motion from the node before to the newest, each as it was when it was the newest.
   Mat6 motionCovariance() const;
-  /// What of that motion only the IMU told (see OdometryFrame::inertial_motion).
-  const Mat6& inertialMotion() const { return inertial_motion_; }
+  /// What of that motion only the IMU told (see OdometryFrame::open_motion).
+  const Mat6& openMotion() const { return open_motion_; }
   double imuFactor() const { return agreement_.imuFactor(); }
 
  private:
@@ -78,7 +78,7 @@ class PALOC_EXPORT InertialSmoother {
   LioState predicted_;
   StateMatrix covariance_predicted_ = StateMatrix::Zero();
   StateMatrix cross_ = StateMatrix::Zero();  // E[error of the next . error of the newest]
-  Mat6 motion_covariance_ = Mat6::Zero(), inertial_motion_ = Mat6::Identity();
+  Mat6 motion_covariance_ = Mat6::Zero(), open_motion_ = Mat6::Identity();
 };
 
 }  // namespace paloc

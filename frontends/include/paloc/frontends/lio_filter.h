@@ -79,8 +79,8 @@ class PALOC_EXPORT LioFilter {
   /// larger.
   Mat6 motionCovariance() const;
 
-  /// What of that motion only the IMU told (see OdometryFrame::inertial_motion).
-  const Mat6& inertialMotion() const { return inertial_motion_; }
+  /// What of that motion only the IMU told (see OdometryFrame::open_motion).
+  const Mat6& openMotion() const { return open_motion_; }
 
   /// By how much the variance of the IMU's noise was raised (see ImuAgreement).
   double imuFactor() const { return agreement_.imuFactor(); }
@@ -97,7 +97,7 @@ class PALOC_EXPORT LioFilter {
   Pose T_odom_body_0_;
   Mat6 covariance_0_ = Mat6::Zero();
   Eigen::Matrix<double, lio::kDim, 6> cross_ = Eigen::Matrix<double, lio::kDim, 6>::Zero();
-  Mat6 inertial_motion_ = Mat6::Identity();
+  Mat6 open_motion_ = Mat6::Identity();
   ImuAgreement agreement_;
   std::vector<PlacedPoint> placed_;
   std::optional<CalibrationBlock> calibration_;

@@ -36,8 +36,8 @@ class PALOC_EXPORT ScanTracker {
   virtual const Pose& odometryPose() const = 0;
   /// Of the motion since the last frame (see OdometryFrame).
   virtual Mat6 motionCovariance() const = 0;
-  /// What of that motion only the prediction told (see OdometryFrame::inertial_motion).
-  virtual Mat6 inertialMotion() const { return Mat6::Zero(); }
+  /// What of that motion only the prediction told (see OdometryFrame::open_motion).
+  virtual Mat6 openMotion() const { return Mat6::Zero(); }
   /// How the body moved during the scan that was added last, in poses of the odom frame.
   virtual ScanMotion scanMotion() const = 0;
   /// The same of the first scan of a stretch, once the second was added.
