@@ -53,15 +53,8 @@ std::vector<CObservation::Ptr> wrongRecording(const test::Path& path, int scans,
   }
   const TimeNs end = kT0 + scans * kScan + 20 * kMs;
   for (TimeNs t = kT0 - 32 * kMs; t <= end; t += 5 * kMs) {
-    const ImuSample sample = test::imuOnPath(path, t, 9.80665);
-    auto imu = std::dynamic_pointer_cast<CObservationIMU>(imuAt(t));
+    const auto imu = imuOn(path, t);
     imu->timestamp = toMrptTime(t + late);
-    imu->set(mrpt::obs::IMU_X_ACC, sample.acc_body.x());
-    imu->set(mrpt::obs::IMU_Y_ACC, sample.acc_body.y());
-    imu->set(mrpt::obs::IMU_Z_ACC, sample.acc_body.z());
-    imu->set(mrpt::obs::IMU_WX, sample.omega_body.x());
-    imu->set(mrpt::obs::IMU_WY, sample.omega_body.y());
-    imu->set(mrpt::obs::IMU_WZ, sample.omega_body.z());
     recording.add(imu);
   }
   return recording.inOrder();

@@ -11,6 +11,19 @@ namespace paloc::test::recorded {
 
 inline double seconds(TimeNs t_ns) { return static_cast<double>(t_ns) * 1e-9; }
 
+/// What a perfect IMU would measure on the path at that time.
+inline std::shared_ptr<CObservationIMU> imuOn(const test::Path& path, TimeNs t) {
+  const ImuSample sample = test::imuOnPath(path, t, 9.80665);
+  auto imu = std::dynamic_pointer_cast<CObservationIMU>(imuAt(t));
+  imu->set(mrpt::obs::IMU_X_ACC, sample.acc_body.x());
+  imu->set(mrpt::obs::IMU_Y_ACC, sample.acc_body.y());
+  imu->set(mrpt::obs::IMU_Z_ACC, sample.acc_body.z());
+  imu->set(mrpt::obs::IMU_WX, sample.omega_body.x());
+  imu->set(mrpt::obs::IMU_WY, sample.omega_body.y());
+  imu->set(mrpt::obs::IMU_WZ, sample.omega_body.z());
+  return imu;
+}
+
 /// Scans of a room by a sensor with 32 rings, which sees floor and ceiling, and the IMU, on a path.
 inline std::vector<CObservation::Ptr> recordingOf(const test::Path& path, int scans,
                                                   bool with_imu = true) {
@@ -21,15 +34,7 @@ inline std::vector<CObservation::Ptr> recordingOf(const test::Path& path, int sc
   }
   const TimeNs end = kT0 + scans * kScan + 20 * kMs;
   for (TimeNs t = kT0 - 22 * kMs; with_imu && t <= end; t += 5 * kMs) {
-    const ImuSample sample = test::imuOnPath(path, t, 9.80665);
-    auto imu = std::dynamic_pointer_cast<CObservationIMU>(imuAt(t));
-    imu->set(mrpt::obs::IMU_X_ACC, sample.acc_body.x());
-    imu->set(mrpt::obs::IMU_Y_ACC, sample.acc_body.y());
-    imu->set(mrpt::obs::IMU_Z_ACC, sample.acc_body.z());
-    imu->set(mrpt::obs::IMU_WX, sample.omega_body.x());
-    imu->set(mrpt::obs::IMU_WY, sample.omega_body.y());
-    imu->set(mrpt::obs::IMU_WZ, sample.omega_body.z());
-    recording.add(imu);
+    recording.add(imuOn(path, t));
   }
   return recording.inOrder();
 }
