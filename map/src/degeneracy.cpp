@@ -20,6 +20,9 @@ constexpr double kSignalToNoise = 2;
 constexpr double kFullShare = 0.005;
 // Rows, all telling as much, that may be wrong together, and those that may, but seldom are.
 constexpr double kFewRows = 50, kSomeRows = 120;
+// What the others tell is enough, in what makes a direction informative: well above, since the rest
+// of an object at whose edge the few lie is no better.
+constexpr double kWithoutFew = 8;
 constexpr double kFull = 0.95, kNone = 0.05;
 
 // How the other kind follows a motion of this one: other = follow * own. What noise alone would
@@ -68,14 +71,16 @@ Motion motionAlong(const Vec3& axis, const Mat3& follow, DirectionKind own) {
 
 // What is known but for the few rows that tell most of a motion.
 Mat6 withoutTelling(const Observed& by, const Motion& motion) {
-  std::vector<std::pair<double, std::size_t>> told;
+  std::vector<std::pair<double, std::size_t>> told(by.rows.size());
   for (std::size_t i = 0; i < by.rows.size(); ++i) {
     const PlaneRow& row = by.rows[i];
     const double along = row.normal_body.dot(motion.v + motion.w.cross(row.point_body));
-    told.emplace_back(-along * along / row.variance, i);
+    told[i] = {-along * along / row.variance, i};
   }
   const std::size_t few = std::min(told.size(), static_cast<std::size_t>(kFewRows));
-  std::partial_sort(told.begin(), told.begin() + static_cast<std::ptrdiff_t>(few), told.end());
+  const auto end = told.begin() + static_cast<std::ptrdiff_t>(few);
+  std::nth_element(told.begin(), end, told.end());
+  std::sort(told.begin(), end);  // an order that does not hang on the library's
   Mat6 rest = by.geometry;
   for (std::size_t k = 0; k < few; ++k) {
     rest -= leastSquares(by.rows.subspan(told[k].second, 1)).information;
@@ -84,14 +89,16 @@ Mat6 withoutTelling(const Observed& by, const Motion& motion) {
 }
 
 // Rows that are wrong together would make the rotation follow to where they are less so: the
-// question is put for the motion that the others would allow.
+// question is put for the motion that the others would allow; and not where these tell enough.
 bool hangsOnFew(const Observed& by, const Support& support, const Motion& translation) {
   const double rows = support.effectiveRows();
   if (!by.worse || rows >= kSomeRows) return false;
-  const Mat3 follow =
-      followingMotion(by.support, withoutTelling(by, translation), DirectionKind::kPosition);
-  const double worse = by.worse({translation.v, follow * translation.v});
-  return worse < (rows < kFewRows ? 1 : 0);
+  const Mat6 rest = withoutTelling(by, translation);
+  const Vec3& v = translation.v;
+  const double told = v.dot(schurComplement(rest, DirectionKind::kPosition) * v);
+  if (told > kWithoutFew * (1 + kSignalToNoise) * support.noise_mean) return false;
+  const Mat3 follow = followingMotion(by.support, rest, DirectionKind::kPosition);
+  return by.worse({v, follow * v}) < (rows < kFewRows ? 1 : 0);
 }
 
 // The three directions of one kind, weakest first, with shares and probabilities. They are those of
