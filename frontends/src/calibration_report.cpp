@@ -1,5 +1,6 @@
 #include "calibration_report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

@@ -25,8 +25,6 @@ struct IterationLimits {
   /// A step that is so small in the sigmas of the result settles it, too; 0: only one that is small
   /// in itself.
   double settled_sigmas = 0;
-  /// Dimensions of the state beyond those that scans alone can tell are left as they are.
-  bool consider_rest = false;
 };
 
 /// The update of an iterated error-state Kalman filter with the points of a scan, each onto its
@@ -49,8 +47,9 @@ class IteratedUpdate {
   using Directions = typename ConsiderUpdate<D>::Directions;
 
   explicit IteratedUpdate(const IterationLimits& limits) : limits_(limits) {}
-  /// From now on.
-  void considerRest() { limits_.consider_rest = true; }
+  /// From now on, dimensions of the state beyond those that scans alone can tell are left as they
+  /// are.
+  void considerRest() { consider_rest_ = true; }
 
   /// `matches` is asked, at each state x: associate(x, gate_m, least_voxel_m), size(),
   /// weigh(widening_m), sums() and normalNoise(), as of PlaneMatches. `toMeasured(x)` is the
@@ -122,7 +121,7 @@ class IteratedUpdate {
       update_.begin(covariance, open_);
     } else {
       constexpr int kRest = D - M;
-      const Eigen::Index k = open.cols(), rest = limits_.consider_rest ? kRest : 0;
+      const Eigen::Index k = open.cols(), rest = consider_rest_ ? kRest : 0;
       open_.setZero(D, k);
       open_.template topRows<M>() = to_measured.template leftCols<M>().transpose() * open;
       Eigen::MatrixXd along = Eigen::MatrixXd::Zero(k + rest, D);
@@ -154,6 +153,7 @@ class IteratedUpdate {
   static constexpr int kLeastSharp = 5;  // steps without widening, before sigmas may settle it
 
   IterationLimits limits_;
+  bool consider_rest_ = false;
   bool converged_ = false;
   State state_;
   Matrix covariance_ = Matrix::Zero();

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "parallel_chunks.h"
@@ -35,41 +34,41 @@ Pose movedBy(const Pose& pose, const Motion& motion) {
 
 }  // namespace
 
-// Those points that such a motion moves off their planes by more than their noise, the most of
-// these where there are very many.
-std::vector<std::uint32_t> MotionProbe::pointsThatSee(const Motion& moved) const {
-  std::vector<std::pair<double, std::uint32_t>> seeing;  // by how many sigmas, less than zero
+// Those points that so long a motion moves off their planes by more than their noise, by most
+// first; no more than some.
+std::vector<MotionProbe::Seeing> MotionProbe::pointsThatSee(const Motion& motion,
+                                                            double length) const {
+  std::vector<Seeing> seeing;
   for (std::size_t i = 0; i < matches_.size(); ++i) {
     const Correspondence& match = matches_[i];
     if (!match.planar || !match.near || match.distance > within_m_) continue;
-    const Vec3 m = pose_.rotation * (moved.v + moved.w.cross(planes_.point(i)));
+    const Vec3 m = pose_.rotation * (motion.v + motion.w.cross(planes_.point(i)));
     const double sigmas = std::abs(match.normal.dot(m)) / (scale_ * match.sigma);
-    if (sigmas > 1) seeing.emplace_back(-sigmas, static_cast<std::uint32_t>(i));
+    if (length * sigmas > 1) seeing.push_back({sigmas, static_cast<std::uint32_t>(i)});
   }
   const std::size_t count = std::min(seeing.size(), kMostPoints);
   std::partial_sort(seeing.begin(), seeing.begin() + static_cast<std::ptrdiff_t>(count),
-                    seeing.end());
-  std::vector<std::uint32_t> points(count);
-  std::transform(seeing.begin(), seeing.begin() + static_cast<std::ptrdiff_t>(count),
-                 points.begin(), [](const auto& point) { return point.second; });
-  return points;
+                    seeing.end(), [](const Seeing& a, const Seeing& b) {
+                      return a.sigmas > b.sigmas || (a.sigmas == b.sigmas && a.point < b.point);
+                    });
+  seeing.resize(count);
+  return seeing;
 }
 
-MotionProbe::Change MotionProbe::changeOf(std::span<const std::uint32_t> points,
-                                          const Pose& pose) const {
+MotionProbe::Change MotionProbe::changeOf(std::span<const Seeing> points, const Pose& pose) const {
   std::array<Correspondence, PlaneSearch::kMost> there;
   std::array<Correspondence*, PlaneSearch::kMost> sought{};
   for (std::size_t k = 0; k < points.size(); ++k) {
-    there[k] = matches_[points[k]];
-    there[k].searched_at = pose * planes_.point(points[k]);
+    there[k] = matches_[points[k].point];
+    there[k].searched_at = pose * planes_.point(points[k].point);
     sought[k] = &there[k];
   }
   planes_.search(std::span(sought).first(points.size()), pose, within_m_);
   Change change;
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (!there[k].planar) continue;
-    const Correspondence& here = matches_[points[k]];
-    planes_.measure(there[k], points[k], there[k].searched_at, pose.rotation);
+    const Correspondence& here = matches_[points[k].point];
+    planes_.measure(there[k], points[k].point, there[k].searched_at, pose.rotation);
     const double worse = robust(there[k].residual / (scale_ * there[k].sigma)) -
                          robust(here.residual / (scale_ * here.sigma));
     change.sum += worse;
@@ -78,12 +77,11 @@ MotionProbe::Change MotionProbe::changeOf(std::span<const std::uint32_t> points,
   return change;
 }
 
-MotionProbe::Change MotionProbe::changeBy(const Motion& moved, const Pose& pose) const {
-  const std::vector<std::uint32_t> points = pointsThatSee(moved);
+MotionProbe::Change MotionProbe::changeAt(const Pose& pose, std::span<const Seeing> points) const {
   std::vector<Change> parts(chunkCount(points.size(), PlaneSearch::kMost));
   forEachChunk(arena_, points.size(), PlaneSearch::kMost,
                [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-                 parts[chunk] = changeOf(std::span(points).subspan(begin, end - begin), pose);
+                 parts[chunk] = changeOf(points.subspan(begin, end - begin), pose);
                });
   Change all;
   for (const Change& part : parts) {
@@ -97,12 +95,16 @@ MotionProbe::Answer MotionProbe::ask(const Motion& motion) const {
   const double length = lengthOf(motion, planes_);
   Answer answer{std::numeric_limits<double>::infinity(), {}};
   double least = -kClearly;
+  const std::vector<Seeing> all = pointsThatSee(motion, kProbesM.back() / length);
   for (const double probe_m : kProbesM) {
     double nearer = std::numeric_limits<double>::infinity();
+    const auto blind = std::find_if(all.begin(), all.end(), [&](const Seeing& point) {
+      return probe_m / length * point.sigmas <= 1;
+    });
+    const std::span seeing(all.begin(), blind);
     for (const double by : {probe_m / length, -probe_m / length}) {
-      const Motion moved{by * motion.v, by * motion.w};
-      const Pose pose = movedBy(pose_, moved);
-      const double significance = changeBy(moved, pose).significance();
+      const Pose pose = movedBy(pose_, {by * motion.v, by * motion.w});
+      const double significance = changeAt(pose, seeing).significance();
       nearer = std::min(nearer, significance);
       answer.clearness = std::min(answer.clearness, significance / kClearly);
       if (significance >= least) continue;

@@ -49,9 +49,14 @@ class MotionProbe {
     /// In standard deviations.
     double significance() const { return squares > 0 ? sum / std::sqrt(squares) : 0; }
   };
-  Change changeBy(const Motion& moved, const Pose& pose) const;
-  Change changeOf(std::span<const std::uint32_t> points, const Pose& pose) const;
-  std::vector<std::uint32_t> pointsThatSee(const Motion& moved) const;
+  /// A matched point, and by how many sigmas the motion moves it off its plane.
+  struct Seeing {
+    double sigmas = 0;
+    std::uint32_t point = 0;
+  };
+  std::vector<Seeing> pointsThatSee(const Motion& motion, double length) const;
+  Change changeAt(const Pose& pose, std::span<const Seeing> points) const;
+  Change changeOf(std::span<const Seeing> points, const Pose& pose) const;
 
   const PlaneSearch& planes_;
   std::span<const Correspondence> matches_;

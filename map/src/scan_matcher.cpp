@@ -62,20 +62,20 @@ class ScanMatcher::Work {
         .gate_m = std::min(settings_.fine_distance_m, settings_.max_distance_m),
         .max_iterations = settings_.max_iterations,
         .start_sigma_m = sigma_position};
-    const Alignment alignment = registration_.align(toLocal(guess), schedule);
-    std::optional<Pose> better;
-    tbb::parallel_invoke([&] { better = fill(alignment, answer, true); },
-                         [&] { addSpectrum(answer.spectrum); });
-    const auto refuseTooLarge = [&](MapMatch& match) {
+    const auto registerFrom = [&](const Pose& start, MapMatch& match) {
+      const Alignment alignment = registration_.align(start, schedule);
+      std::optional<Pose> better;
+      tbb::parallel_invoke([&] { better = fill(alignment, match, settings_.degeneracy_handling); },
+                           [&] { addSpectrum(match.spectrum); });
       if (match.accepted() && stepTooLarge(guess, match, sigma_position, sigma_rotation)) {
         match.refusal = MatchRefusal::kLargeStep;
       }
+      return better;
     };
-    refuseTooLarge(answer);
+    const std::optional<Pose> better = registerFrom(toLocal(guess), answer);
     if (!better) return answer;
     MapMatch there = answer;
-    fill(registration_.align(*better, schedule), there, true);
-    refuseTooLarge(there);
+    registerFrom(*better, there);
     return there.accepted() ? there : answer;
   }
 
@@ -209,11 +209,11 @@ class ScanMatcher::Work {
     return true;
   }
 
-  // Returns where the scan lies better, where it was asked and does.
+  // Where `probing`, returns where the scan lies better, if it does anywhere.
   std::optional<Pose> fill(const Alignment& alignment, MapMatch& answer, bool probing) {
     const Stopwatch stopwatch;
-    timing_.association_s = alignment.timing.association_s;
-    timing_.solve_s = alignment.timing.solve_s;
+    timing_.association_s += alignment.timing.association_s;
+    timing_.solve_s += alignment.timing.solve_s;
     const Pose& local = alignment.T_local_body;
     answer.T_map_body = toMrpt(Pose{local.position + map_->origin(), local.rotation});
     answer.matched = alignment.matched;
@@ -226,17 +226,17 @@ class ScanMatcher::Work {
     std::optional<Pose> better;
     if (!registration_.rows().empty()) {
       std::optional<DirectionObserver> observer;
-      const MotionCheck worse = [&](const Motion& motion) {
-        const MotionProbe::Answer probed = registration_.probe(motion);
-        if (probed.better) better = probed.better;
-        return probed.clearness;
-      };
+      MotionCheck worse;
+      if (probing) {
+        worse = [&](const Motion& motion) {
+          const MotionProbe::Answer probed = registration_.probe(motion);
+          if (probed.better) better = probed.better;
+          return probed.clearness;
+        };
+      }
       Registration::Shared shared;
       tbb::parallel_invoke(
-          [&] {
-            observer.emplace(registration_.rows(), settings_.normal_noise_rad,
-                             probing ? worse : MotionCheck());
-          },
+          [&] { observer.emplace(registration_.rows(), settings_.normal_noise_rad, worse); },
           [&] { shared = registration_.sharedErrorsOfRows(); });
       const ObservedDirections observed = observer->under(shared.spread);
       answer.directions = observed.directions;
@@ -250,7 +250,7 @@ class ScanMatcher::Work {
                       shared.patches);
       if (answer.accepted()) addSurfaces(shared.patches, local, answer);
     }
-    timing_.information_s = stopwatch.seconds();
+    timing_.information_s += stopwatch.seconds();
     return better;
   }
 
@@ -270,7 +270,7 @@ class ScanMatcher::Work {
     if (!settings_.spectrum) return;
     const Stopwatch stopwatch;
     spectrum = spectrumOfRows();
-    timing_.spectrum_s = stopwatch.seconds();
+    timing_.spectrum_s += stopwatch.seconds();
   }
 
   // The scan's own surfaces against the map's, at some of the matched points, evenly; in chunks,

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "paloc/core/text.h"
 #include "paloc/tools/bench_frontends.h"
 #include "paloc/tools/eval_covariance.h"
 
@@ -85,7 +86,7 @@ std::string tableOf(const BenchFrontendsResult& result) {
            stage.percentile(0.99));
   }
   for (const FrontendRun& run : result.runs) {
-    for (const std::string& note : run.notes) out += "note: " + note + "\n";
+    for (const std::string& note : run.notes) out += text("note: ", note, "\n");
     if (result.runs.size() > 1) break;
   }
   return out;
