@@ -9,6 +9,7 @@
 #include "paloc/core/predict_state.h"
 #include "paloc/core/predicted_covariance.h"
 #include "paloc/core/scan_correction.h"
+#include "paloc/core/scan_skew.h"
 #include "paloc/core/start_prior.h"
 #include "paloc/core/trajectory_point.h"
 
@@ -102,7 +103,7 @@ void TrajectoryGenerator::tryStart(const OdometryFrame& frame) {
     row.scan_start_ns = frame.scan->start_ns;
     if (const auto guess = start_.guessAt(frame.t_ns, measuredUp(imu_, frame.t_ns, settings_))) {
       StageScope stage(timer_, "locate");
-      row.match = matcher_->locate(*frame.scan, *guess);
+      row.match = matcher_->locate(startScan(*frame.scan), *guess);
       start_.tried(frame.t_ns, *guess, row.match);
       if (guess->T_map_body) {
         const Vec6 step = boxminus(fromMrpt(row.match.T_map_body), fromMrpt(*guess->T_map_body));
@@ -113,6 +114,13 @@ void TrajectoryGenerator::tryStart(const OdometryFrame& frame) {
   }
   diagnostics_.push_back(row);
   if (row.match.accepted()) start(frame, row.match);
+}
+
+// Of the motion during the first scan nothing is known.
+Scan TrajectoryGenerator::startScan(const Scan& scan) const {
+  const double scan_s = secondsBetween(scan.start_ns, scan.end_ns);
+  if (scan.skew == ScanSkew::kNone || !(scan_s > 0)) return scan;
+  return withSkewTold(scan, Pose{}, unmeasuredMotion(scan_s, settings_), scan_s);
 }
 
 void TrajectoryGenerator::start(const OdometryFrame& frame, const MapMatch& match) {
@@ -165,7 +173,7 @@ void TrajectoryGenerator::advance(const OdometryFrame& frame) {
   FrameDiagnostics row;
   row.t_ns = frame.t_ns;
   row.scan_start_ns = frame.scan ? frame.scan->start_ns : frame.t_ns;
-  row.match = askMap(imu ? withScanDeskewedAnew(frame, last, node.state) : frame, last, node.state,
+  row.match = askMap(withBestScan(frame, last, node.state, imu.has_value()), last, node.state,
                      imu.has_value());
   if (row.match.accepted()) {
     few_points_.check(last.state.T_map_body, node.state.T_map_body, row.match);
@@ -194,6 +202,30 @@ void TrajectoryGenerator::advance(const OdometryFrame& frame) {
     odometry_broken_ = !frame.continues;
   }
   if (!believed) dropStart();
+}
+
+// The frame with its scan as free of the motion as what is known of that makes it.
+OdometryFrame TrajectoryGenerator::withBestScan(const OdometryFrame& frame,
+                                                const NodeEstimate& last, const State& predicted,
+                                                bool by_imu) const {
+  if (!frame.scan) return frame;
+  if (frame.scan->skew == ScanSkew::kNone) {
+    return by_imu ? withScanDeskewedAnew(frame, last, predicted) : frame;
+  }
+  const double dt_s = secondsBetween(last.t_ns, frame.t_ns);
+  Mat6 covariance = frame.continues ? frame.motion_covariance : unmeasuredMotion(dt_s, settings_);
+  if (by_imu && frame.scan->skew == ScanSkew::kWhole) {
+    covariance.setZero();
+    covariance.topLeftCorner<3, 3>() =
+        dt_s * dt_s * last.covariance.block<3, 3>(tangent::kVelocity, tangent::kVelocity);
+    const Mat3& R_map_last = last.state.T_map_body.rotation;
+    covariance.topLeftCorner<3, 3>() =
+        (R_map_last.transpose() * covariance.topLeftCorner<3, 3>() * R_map_last).eval();
+  }
+  const Pose motion = last.state.T_map_body.inverse() * predicted.T_map_body;
+  OdometryFrame best = frame;
+  best.scan = std::make_shared<const Scan>(withSkewTold(*frame.scan, motion, covariance, dt_s));
+  return best;
 }
 
 // What the map says of the scan: from where it is expected, or of a lost body from anywhere; such

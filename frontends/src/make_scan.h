@@ -10,7 +10,8 @@ namespace paloc {
 
 /// The estimator's scan of a LiDAR's: deskewed by `motion`, or as it is where that is null. Points
 /// left out are counted; null, with its reason counted, if none is left. A scan deskewed by an IMU
-/// says with which velocity (Scan::v_body_assumed).
+/// says with which velocity (Scan::v_body_assumed), others what is left in them of the motion
+/// (Scan::skew).
 std::shared_ptr<const Scan> makeScan(const LidarFrame& frame, const ScanMotion* motion,
                                      RangeLimits limits, UnusedCounts& unused);
 

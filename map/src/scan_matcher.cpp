@@ -185,8 +185,10 @@ class ScanMatcher::Work {
     AveragedPoints averaged = thinned(scan);
     timing_.filter_s = stopwatch.seconds();
     answer.points = static_cast<int>(averaged.points.size());
-    answer.thinned = std::make_shared<const Scan>(Scan{
-        scan.start_ns, scan.end_ns, averaged.points, scan.sensor_position_body, averaged.returns});
+    Scan tried{scan.start_ns, scan.end_ns, averaged.points, scan.sensor_position_body,
+               averaged.returns};
+    tried.skew_covariance = skew_covariance_ = scan.skew_covariance;
+    answer.thinned = std::make_shared<const Scan>(std::move(tried));
     registration_.setPoints(std::move(averaged), scan.sensor_position_body);
     return answer;
   }
@@ -238,6 +240,8 @@ class ScanMatcher::Work {
       tbb::parallel_invoke(
           [&] { observer.emplace(registration_.rows(), settings_.normal_noise_rad, worse); },
           [&] { shared = registration_.sharedErrorsOfRows(); });
+      // As a motion of the pose it moves the gradient by the information times that.
+      shared.spread += observer->information() * skew_covariance_ * observer->information();
       const ObservedDirections observed = observer->under(shared.spread);
       answer.directions = observed.directions;
       const bool handled = settings_.degeneracy_handling;
@@ -321,6 +325,7 @@ class ScanMatcher::Work {
   ScanAveraging averaging_;
   StartFinder finder_;
   SurfaceRegister surfaces_;
+  Mat6 skew_covariance_ = Mat6::Zero();  // of the scan in hand
   Timing timing_;
 };
 

@@ -9,6 +9,13 @@
 
 namespace paloc {
 
+/// What is left in a scan of the motion while it was taken.
+enum class ScanSkew {
+  kNone,        ///< it was seen from one instant, or deskewed by an IMU
+  kOfOdometry,  ///< it was deskewed by an odometry's motion, and has the errors of that
+  kWhole,       ///< it was not deskewed at all
+};
+
 /// A LiDAR scan as the estimator sees it: undistorted to `end_ns`, in the body frame.
 struct Scan {
   TimeNs start_ns = 0;  ///< stamp of the first point
@@ -23,6 +30,11 @@ struct Scan {
   /// accelerometer with a velocity from elsewhere: that velocity at `end_ns`, body frame (m/s).
   /// Such a scan can be deskewed better (see deskewedAnew()).
   std::optional<Vec3> v_body_assumed = {};
+  ScanSkew skew = ScanSkew::kNone;
+  /// Covariance (6 x 6) of what that does to the body's pose at `end_ns` by the scan, which is the
+  /// same in scan after scan: tangent [position in the body frame (m), rotation on the right
+  /// (rad)]. Set by withSkewTold().
+  Mat6 skew_covariance = Mat6::Zero();
 };
 
 }  // namespace paloc

@@ -77,6 +77,9 @@ class PALOC_EXPORT TrajectoryGenerator {
   void addStationaryFactors(TimeNs since_ns, bool rested_before, ChainNode& node) const;
   bool append(ChainNode node, FrameDiagnostics row, const std::optional<Pose>& T_found_expected);
   OdometryFrame sinceLastNode(const OdometryFrame& frame) const;
+  OdometryFrame withBestScan(const OdometryFrame& frame, const NodeEstimate& last,
+                             const State& predicted, bool by_imu) const;
+  Scan startScan(const Scan& scan) const;
   void rememberOdometry(const Pose& T_odom_body);
   RepairCounts repairsSoFar() const;
   void collect(const std::vector<NodeEstimate>& estimates);
