@@ -61,6 +61,19 @@ void TrackedOdometry::giveOutImu(TimeNs until_ns) {
   }
 }
 
+// A scan that is not deskewed is registered where it was at half its time, more or less: the motion
+// of its other half is taken to be as before, and may be none at all. Where an IMU told part of it,
+// the pose is somewhere between.
+Mat6 TrackedOdometry::addOtherHalf(const Pose& motion, Pose& T_odom_body) const {
+  Vec6 whole;
+  whole << motion.rotation.transpose() * motion.position, so3::log(motion.rotation);
+  if (!tracker_->usesImu()) {
+    T_odom_body = T_odom_body * Pose{0.5 * whole.head<3>(), so3::exp(0.5 * whole.tail<3>())};
+  }
+  whole.head<3>() = motion.position;
+  return 0.25 * (whole * whole.transpose());
+}
+
 void TrackedOdometry::giveOutFrame(LidarFrame& frame) {
   OdometryFrame result;
   result.t_ns = frame.endNs();
@@ -87,15 +100,21 @@ void TrackedOdometry::giveOutFrame(LidarFrame& frame) {
       break;
   }
   frame.T_body_lidar = tracker_->mountOf(frame.T_body_lidar);
-  result.T_odom_body = toMrpt(tracker_->odometryPose());
+  Pose T_odom_body = tracker_->odometryPose();
+  const Pose motion_since_last = T_odom_body_last_.inverse() * T_odom_body;
+  T_odom_body_last_ = T_odom_body;
   if (!first_) {
     const ScanMotion motion = withImu(frame, tracker_->scanMotion());
     result.continues = true;
     result.motion_covariance = tracker_->motionCovariance();
+    if (!deskew && !frame.deskewed && frame.duration_ns > 0) {
+      result.motion_covariance += addOtherHalf(motion_since_last, T_odom_body);
+    }
     // Without an IMU in the estimator the tracker's guess, with its covariance, is all there is.
     if (tracker_->usesImu() || motion.byImu()) result.open_motion = tracker_->openMotion();
     result.scan = scanOf(frame, deskew ? &motion : nullptr);
   }
+  result.T_odom_body = toMrpt(T_odom_body);
   events_.emplace_back(std::move(result));
 }
 

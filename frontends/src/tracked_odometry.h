@@ -40,6 +40,7 @@ class TrackedOdometry : public OdometryFrontend {
   void giveOutImu(TimeNs until_ns);
   void giveOutFrame(LidarFrame& frame);
   void releaseFirst();
+  Mat6 addOtherHalf(const Pose& motion, Pose& T_odom_body) const;
   ScanMotion withImu(const LidarFrame& frame, const ScanMotion& by_tracker) const;
   std::shared_ptr<const Scan> scanOf(const LidarFrame& frame, const ScanMotion* motion);
   void noteAtEnd();
@@ -56,6 +57,7 @@ class TrackedOdometry : public OdometryFrontend {
     LidarFrame frame;
     bool deskew = false;
   };
+  Pose T_odom_body_last_;
   std::optional<WaitingFrame> first_;  // of a stretch: its event waits for the next frame
   struct {
     int frames = 0, with_scan = 0, begun = 0, coasted = 0, refused = 0;
