@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 
 #include "voxel_key.h"
 
@@ -21,6 +22,34 @@ constexpr double kMaxThicknessToWidth = 0.4;  // above: an edge, or a single rin
 constexpr double kMinWidthToLength = 0.15;    // below: a line, whose normal is free to roll
 constexpr double kMaxNormalSigma = 0.05;      // rad
 constexpr double kBehindCosine = 0.17;        // seen from behind, and not merely along it
+
+// How unsure (rad) the normal is of a plane that is fitted along the mean ray `view` (unit), as the
+// noise of ranges is: depth over bearing, of points with this mean scatter (m2). Spread along the
+// rays tells nothing of it: the points of a single ring on a wall, an arc with noise beside it
+// along the rays, lie on a plane through the sensor as far as their scatter alone tells.
+//
+// A slope whose sign is not sure is that of any plane about its axis, so the angle between slopes
+// two sigmas off counts, and not its derivative.
+double normalSigma(const Mat3& scatter, const Vec3& view, double points) {
+  constexpr double kSigmas = 2;
+  Eigen::Matrix<double, 3, 2> across;
+  across.col(0) = view.unitOrthogonal();
+  across.col(1) = view.cross(across.col(0));
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> bearings;
+  bearings.computeDirect(across.transpose() * scatter * across);
+  const Eigen::Vector2d spread_sq = bearings.eigenvalues();
+  if (!(spread_sq[0] > 0)) return std::numbers::pi;
+  const Eigen::Vector2d along = (across * bearings.eigenvectors()).transpose() * scatter * view;
+  const Eigen::Vector2d slope = along.cwiseQuotient(spread_sq);
+  const double noise = std::max(view.dot(scatter * view) - along.dot(slope), 0.0);
+  const Eigen::Vector2d off = kSigmas * (noise / points * spread_sq.cwiseInverse()).cwiseSqrt();
+  Eigen::Vector2d angle;
+  for (int i = 0; i < 2; ++i) {
+    const double other = std::hypot(1, std::max(std::abs(slope[1 - i]) - off[1 - i], 0.0));
+    angle[i] = std::atan((slope[i] + off[i]) / other) - std::atan((slope[i] - off[i]) / other);
+  }
+  return angle.norm() / (2 * kSigmas);
+}
 
 // Fibonacci hashing, for tables whose size is a power of two.
 std::size_t hashOf(std::uint64_t key) {
@@ -84,6 +113,8 @@ bool PlaneVoxels::add(const Vec3& point, const Vec3& ray, std::uint32_t now) {
   const Eigen::Vector3f before = p - mean;
   mean += share * before;
   const Eigen::Vector3f after = p - mean;
+  Eigen::Map<Eigen::Vector3f> view(cell.view.data());
+  view += share * (ray.normalized().cast<float>() - view);
   std::size_t at = 0;
   for (int row = 0; row < 3; ++row) {
     for (int column = row; column < 3; ++column) cell.scatter[at++] += before[row] * after[column];
@@ -113,6 +144,12 @@ void PlaneVoxels::fit(std::uint32_t index, const Vec3& ray) {
   if (thickness > kMaxThickness || thickness > kMaxThicknessToWidth * width ||
       width < kMinWidthToLength * length ||
       thickness > kMaxNormalSigma * width * std::sqrt(static_cast<double>(cell.points))) {
+    return;
+  }
+  const Vec3 view = Eigen::Map<const Eigen::Vector3f>(cell.view.data()).cast<double>();
+  const double points = static_cast<double>(cell.points);
+  if (normalSigma(scatter.cast<double>() / points, view.normalized(), points - 3) >
+      kMaxNormalSigma) {
     return;
   }
   Eigen::Vector3f normal = solver.eigenvectors().col(0).cast<float>();

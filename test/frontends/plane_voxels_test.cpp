@@ -71,6 +71,57 @@ TEST(PlaneVoxels, AreThoseOfBruteForce) {
   EXPECT_GT(compared, 40);
 }
 
+/// Points of the wall x = 2.1 between the given elevations (rad), seen from zero, with noise of the
+/// range.
+std::vector<Vec3> seenOfAWall(double lowest, double highest, int count) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> azimuth(0.005, 0.23), elevation(lowest, highest);
+  std::normal_distribution<double> noise(0, 0.03);
+  std::vector<Vec3> points;
+  for (int i = 0; i < count; ++i) {
+    const double up = elevation(random);
+    const Vec3 direction(1, std::tan(azimuth(random)), std::tan(up));
+    const double range = 2.1 * direction.norm() + noise(random);
+    points.push_back(range * direction.normalized());
+  }
+  return points;
+}
+
+// A ring's points on a wall lie on the ring's own plane, as exactly as the sensor turns evenly: not
+// a surface. (A map of a stairwell was full of such level planes, 4 mm thin, at any height.)
+TEST(PlaneVoxels, ASingleRingIsNoPlane) {
+  PlaneVoxels voxels(0.2);
+  LocalPlane found;
+  for (const Vec3& p : seenOfAWall(0.04, 0.042, 200)) {
+    voxels.add(p, p, 0);
+    EXPECT_FALSE(voxels.find(p, Vec3(1, 0, -0.3), found)) << found.normal.transpose();
+  }
+}
+
+TEST(PlaneVoxels, SeveralRingsAre) {
+  PlaneVoxels voxels(0.5);
+  for (const Vec3& p : seenOfAWall(0.01, 0.15, 240)) voxels.add(p, p, 0);
+  LocalPlane found;
+  ASSERT_TRUE(voxels.find(Vec3(2.1, 0.1, 0.1), Vec3(1, 0, 0), found));
+  EXPECT_LT(found.normal.x(), -0.99);
+}
+
+// Of a floor far away few millimetres are seen across the rays, yet these tell its normal well: the
+// noise of the ranges moves points along it.
+TEST(PlaneVoxels, AGrazedFloorIsAPlane) {
+  PlaneVoxels voxels(0.2);
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> x(4.01, 4.19), y(0.01, 0.19);
+  std::normal_distribution<double> noise(0, 0.03);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 p(x(random), y(random), -0.9);
+    voxels.add(p + noise(random) * p.normalized(), p, 0);
+  }
+  LocalPlane found;
+  ASSERT_TRUE(voxels.find(Vec3(4.1, 0.1, -0.9), Vec3(4, 0, -0.9), found));
+  EXPECT_GT(found.normal.z(), 0.98);
+}
+
 TEST(PlaneVoxels, TheTwoSidesOfAThinWallAreTwoPlanes) {
   PlaneVoxels voxels(0.5);
   std::mt19937 random(2);

@@ -67,6 +67,7 @@ class PALOC_EXPORT PlaneVoxels {
     std::uint64_t key = 0;
     std::array<float, 3> mean{};     ///< from the voxel's centre (m)
     std::array<float, 6> scatter{};  ///< sums of products of deviations: xx xy xz yy yz zz (m2)
+    std::array<float, 3> view{};     ///< mean of the unit rays that they were seen along
     std::uint32_t points = 0;
     std::uint32_t fitted = 0;  ///< how many of them the plane was fitted to
     std::uint32_t seen = 0;    ///< when, last
