@@ -127,5 +127,29 @@ TEST(IcpOdometry, CovariancesAreSoundAndBytesTheSame) {
   }
 }
 
+// And where a scan is not deskewed, the odometry is that of its end all the same, and says how
+// unsure of it.
+TEST(IcpOdometry, SaysWhatOfTheMotionIsLeftInItsScans) {
+  const test::Path path = test::constantTwist(Vec3(1, 0.2, 0), Vec3(0, 0, 0.2));
+  const auto skewOf = [](const Output& output) { return output.frames.back().scan->skew; };
+  EXPECT_EQ(skewOf(runIcp(recordingOf(path, 4, true))), ScanSkew::kNone);
+  EXPECT_EQ(skewOf(runIcp(recordingOf(path, 4, false))), ScanSkew::kOfOdometry);
+  FrontendSettings as_they_are;
+  as_they_are.deskew = false;
+  const Output output = run(recordingOf(path, 20, false), as_they_are, "icp");
+  ASSERT_EQ(output.frames.size(), 20U);
+  EXPECT_EQ(skewOf(output), ScanSkew::kWhole);
+  for (std::size_t i = 1; i < output.frames.size(); ++i) {
+    const OdometryFrame& frame = output.frames[i];
+    const Vec6 error = boxminus(errorOf(path, output.frames[i - 1], frame), Pose{});
+    const Mat6 covariance = frame.motion_covariance + 1e-8 * Mat6::Identity();
+    const Eigen::Matrix<double, 6, 6> inverse = Eigen::Matrix<double, 6, 6>(covariance)
+                                                    .ldlt()
+                                                    .solve(Eigen::Matrix<double, 6, 6>::Identity());
+    EXPECT_LT(error.dot(inverse * error) / 6, 3) << i;
+    EXPECT_GT(std::sqrt(covariance(0, 0)), 0.03) << "half of 0.1 m";
+  }
+}
+
 }  // namespace
 }  // namespace paloc

@@ -53,6 +53,28 @@ TEST(ScanMatcher, FindsThePoseFromAPrediction) {
   }
 }
 
+// What a scan says of the motion left in it comes on top of the pose's covariance, and stays with
+// the points that are kept for another match.
+TEST(ScanMatcher, TheSkewOfAScanIsInItsCovariance) {
+  const Pose truth = truthIn(furnishedRoom());
+  const auto matcher = ScanMatcher::onto(roomMap(), {});
+  Scan scan = roomScan();
+  const auto covarianceOf = [&](const Scan& tried) {
+    const MapMatch match = matcher->match(tried, toMrpt(truth), 0.05, 0.01);
+    EXPECT_TRUE(match.accepted());
+    return Mat6(Eigen::Matrix<double, 6, 6>(match.informationAmong(1)).inverse());
+  };
+  const Mat6 without = covarianceOf(scan);
+  scan.skew_covariance.diagonal() << 4e-4, 1e-4, 1e-6, 1e-6, 1e-6, 4e-6;
+  const MapMatch match = matcher->match(scan, toMrpt(truth), 0.05, 0.01);
+  const Mat3 R = fromMrpt(match.T_map_body).rotation;
+  Mat6 expected = scan.skew_covariance;
+  expected.topLeftCorner<3, 3>() = R * scan.skew_covariance.topLeftCorner<3, 3>() * R.transpose();
+  EXPECT_LT((covarianceOf(scan) - without - expected).norm(), 0.02 * expected.norm());
+  ASSERT_TRUE(match.thinned);
+  EXPECT_EQ(match.thinned->skew_covariance, scan.skew_covariance);
+}
+
 TEST(ScanMatcher, LocatesFromARoughPose) {
   const Pose truth = truthIn(furnishedRoom());
   const auto matcher = ScanMatcher::onto(roomMap(), {});
