@@ -147,7 +147,7 @@ void PlaneVoxels::fit(std::uint32_t index, const Vec3& ray) {
     return;
   }
   const Vec3 view = Eigen::Map<const Eigen::Vector3f>(cell.view.data()).cast<double>();
-  const double points = static_cast<double>(cell.points);
+  const auto points = static_cast<double>(cell.points);
   if (normalSigma(scatter.cast<double>() / points, view.normalized(), points - 3) >
       kMaxNormalSigma) {
     return;
