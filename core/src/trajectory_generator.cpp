@@ -215,12 +215,12 @@ OdometryFrame TrajectoryGenerator::withBestScan(const OdometryFrame& frame,
   const double dt_s = secondsBetween(last.t_ns, frame.t_ns);
   Mat6 covariance = frame.continues ? frame.motion_covariance : unmeasuredMotion(dt_s, settings_);
   if (by_imu && frame.scan->skew == ScanSkew::kWhole) {
+    // How the body turned the IMU tells; how fast it went at the beginning, the last node.
+    const Mat3& R_map_last = last.state.T_map_body.rotation;
+    const Mat3 velocity = last.covariance.block<3, 3>(tangent::kVelocity, tangent::kVelocity);
     covariance.setZero();
     covariance.topLeftCorner<3, 3>() =
-        dt_s * dt_s * last.covariance.block<3, 3>(tangent::kVelocity, tangent::kVelocity);
-    const Mat3& R_map_last = last.state.T_map_body.rotation;
-    covariance.topLeftCorner<3, 3>() =
-        (R_map_last.transpose() * covariance.topLeftCorner<3, 3>() * R_map_last).eval();
+        R_map_last.transpose() * (dt_s * dt_s * velocity) * R_map_last;
   }
   const Pose motion = last.state.T_map_body.inverse() * predicted.T_map_body;
   OdometryFrame best = frame;
