@@ -19,7 +19,7 @@ std::shared_ptr<const Scan> makeScan(const LidarFrame& frame, const ScanMotion* 
   if (motion && motion->byImu() && !scan->ages_s.empty()) {
     scan->v_body_assumed = motion->vBodyEnd();
   }
-  if (frame.duration_ns > 0 && !frame.deskewed && !(motion && motion->byImu())) {
+  if (isSkewed(frame) && !(motion && motion->byImu())) {
     scan->skew = motion ? ScanSkew::kOfOdometry : ScanSkew::kWhole;
   }
   if (!scan->points_body.empty()) return scan;

@@ -107,7 +107,7 @@ void TrackedOdometry::giveOutFrame(LidarFrame& frame) {
     const ScanMotion motion = withImu(frame, tracker_->scanMotion());
     result.continues = true;
     result.motion_covariance = tracker_->motionCovariance();
-    if (!deskew && !frame.deskewed && frame.duration_ns > 0) {
+    if (!deskew && isSkewed(frame)) {
       result.motion_covariance += addOtherHalf(motion_since_last, T_odom_body);
     }
     // Without an IMU in the estimator the tracker's guess, with its covariance, is all there is.
