@@ -103,7 +103,7 @@ void TrajectoryGenerator::tryStart(const OdometryFrame& frame) {
     row.scan_start_ns = frame.scan->start_ns;
     if (const auto guess = start_.guessAt(frame.t_ns, measuredUp(imu_, frame.t_ns, settings_))) {
       StageScope stage(timer_, "locate");
-      row.match = matcher_->locate(startScan(*frame.scan), *guess);
+      row.match = matcher_->locate(*startScan(frame.scan), *guess);
       start_.tried(frame.t_ns, *guess, row.match);
       if (guess->T_map_body) {
         const Vec6 step = boxminus(fromMrpt(row.match.T_map_body), fromMrpt(*guess->T_map_body));
@@ -117,10 +117,12 @@ void TrajectoryGenerator::tryStart(const OdometryFrame& frame) {
 }
 
 // Of the motion during the first scan nothing is known.
-Scan TrajectoryGenerator::startScan(const Scan& scan) const {
-  const double scan_s = secondsBetween(scan.start_ns, scan.end_ns);
-  if (scan.skew == ScanSkew::kNone || !(scan_s > 0)) return scan;
-  return withSkewTold(scan, Pose{}, unmeasuredMotion(scan_s, settings_), scan_s);
+std::shared_ptr<const Scan> TrajectoryGenerator::startScan(
+    const std::shared_ptr<const Scan>& scan) const {
+  const double scan_s = secondsBetween(scan->start_ns, scan->end_ns);
+  if (scan->skew == ScanSkew::kNone || !(scan_s > 0)) return scan;
+  return std::make_shared<const Scan>(
+      withSkewTold(*scan, Pose{}, unmeasuredMotion(scan_s, settings_), scan_s));
 }
 
 void TrajectoryGenerator::start(const OdometryFrame& frame, const MapMatch& match) {

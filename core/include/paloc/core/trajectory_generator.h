@@ -79,7 +79,7 @@ class PALOC_EXPORT TrajectoryGenerator {
   OdometryFrame sinceLastNode(const OdometryFrame& frame) const;
   OdometryFrame withBestScan(const OdometryFrame& frame, const NodeEstimate& last,
                              const State& predicted, bool by_imu) const;
-  Scan startScan(const Scan& scan) const;
+  std::shared_ptr<const Scan> startScan(const std::shared_ptr<const Scan>& scan) const;
   void rememberOdometry(const Pose& T_odom_body);
   RepairCounts repairsSoFar() const;
   void collect(const std::vector<NodeEstimate>& estimates);
