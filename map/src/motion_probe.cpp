@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "parallel_chunks.h"
@@ -13,7 +14,7 @@ namespace {
 
 // How far the points are moved. Nearer, planes sought anew are noise for the most part.
 constexpr std::array kProbesM = {0.06, 0.1, 0.15};
-constexpr double kClearly = 2, kBeyondDoubt = 6;  // standard deviations
+constexpr double kClearly = 25, kBeyondDoubt = 100;  // twice the logarithm of likelihoods
 constexpr std::size_t kMostPoints = 400;
 constexpr double kKernel = 3;  // as that of the registration
 
@@ -55,7 +56,7 @@ std::vector<MotionProbe::Seeing> MotionProbe::pointsThatSee(const Motion& motion
   return seeing;
 }
 
-MotionProbe::Change MotionProbe::changeOf(std::span<const Seeing> points, const Pose& pose) const {
+double MotionProbe::changeOf(std::span<const Seeing> points, const Pose& pose) const {
   std::array<Correspondence, PlaneSearch::kMost> there;
   std::array<Correspondence*, PlaneSearch::kMost> sought{};
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -64,31 +65,27 @@ MotionProbe::Change MotionProbe::changeOf(std::span<const Seeing> points, const 
     sought[k] = &there[k];
   }
   planes_.search(std::span(sought).first(points.size()), pose, within_m_);
-  Change change;
+  double change = 0;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    if (!there[k].planar) continue;
     const Correspondence& here = matches_[points[k].point];
-    planes_.measure(there[k], points[k].point, there[k].searched_at, pose.rotation);
-    const double worse = robust(there[k].residual / (scale_ * there[k].sigma)) -
-                         robust(here.residual / (scale_ * here.sigma));
-    change.sum += worse;
-    change.squares += worse * worse;
+    change -= robust(here.residual / (scale_ * here.sigma));
+    if (there[k].planar) {
+      planes_.measure(there[k], points[k].point, there[k].searched_at, pose.rotation);
+      change += robust(there[k].residual / (scale_ * there[k].sigma));
+    } else {
+      change += kKernel * kKernel;  // as one that lies off every plane
+    }
   }
   return change;
 }
 
-MotionProbe::Change MotionProbe::changeAt(const Pose& pose, std::span<const Seeing> points) const {
-  std::vector<Change> parts(chunkCount(points.size(), PlaneSearch::kMost));
+double MotionProbe::changeAt(const Pose& pose, std::span<const Seeing> points) const {
+  std::vector<double> parts(chunkCount(points.size(), PlaneSearch::kMost));
   forEachChunk(arena_, points.size(), PlaneSearch::kMost,
                [&](std::size_t chunk, std::size_t begin, std::size_t end) {
                  parts[chunk] = changeOf(points.subspan(begin, end - begin), pose);
                });
-  Change all;
-  for (const Change& part : parts) {
-    all.sum += part.sum;
-    all.squares += part.squares;
-  }
-  return all;
+  return std::accumulate(parts.begin(), parts.end(), 0.0);
 }
 
 MotionProbe::Answer MotionProbe::ask(const Motion& motion) const {
@@ -104,11 +101,11 @@ MotionProbe::Answer MotionProbe::ask(const Motion& motion) const {
     const std::span seeing(all.begin(), blind);
     for (const double by : {probe_m / length, -probe_m / length}) {
       const Pose pose = movedBy(pose_, {by * motion.v, by * motion.w});
-      const double significance = changeAt(pose, seeing).significance();
-      nearer = std::min(nearer, significance);
-      answer.clearness = std::min(answer.clearness, significance / kClearly);
-      if (significance >= least) continue;
-      least = significance;
+      const double worse = changeAt(pose, seeing);
+      nearer = std::min(nearer, worse);
+      answer.clearness = std::min(answer.clearness, worse / kClearly);
+      if (worse >= least) continue;
+      least = worse;
       answer.better = pose;
     }
     if (nearer > kBeyondDoubt) break;
