@@ -14,6 +14,11 @@ constexpr double kMinIncidenceCosine =
     0.1;  // flatter rays say little and are biased by their footprint
 constexpr double kNoiseCosine =
     0.2;  // below it the range noise counts no less: the beam has a width
+// The radius of what a plane was fitted to: of a disc it is twice the standard deviation along
+// either axis; and at least so much (m), for planes so thin that none can be told.
+constexpr double kRadiusToWidth = 2, kLeastRadiusM = 0.05;
+// Two map points are on one face when their planes are this parallel, and this near in thicknesses.
+constexpr double kOneFaceCosine = 0.9, kOneFaceThicknesses = 3;
 
 }  // namespace
 
@@ -64,6 +69,9 @@ void PlaneSearch::take(Correspondence& match, const PriorMap::Nearest& nearest,
   match.fit_variance = roughness * roughness + thickness * thickness / plane.points;
   match.normal_sigma = static_cast<double>(plane.normal_sigma_rad);
   match.surface_sigma = thickness;
+  const double width =
+      match.normal_sigma > 0 ? thickness / (std::sqrt(plane.points) * match.normal_sigma) : 0;
+  match.radius = std::max(kRadiusToWidth * width, kLeastRadiusM);
 }
 
 Vec3 PlaneSearch::point(std::size_t i) const { return toVec(points_.points[i]); }
@@ -80,7 +88,29 @@ void PlaneSearch::search(std::span<Correspondence* const> matches, const Pose& T
                        std::span(queries).first(matches.size()), answers);
   for (std::size_t k = 0; k < matches.size(); ++k) {
     take(*matches[k], answers[k], matches[k]->searched_at - sensor);
+    if (matches[k]->planar && !liesWhereHit(*matches[k], sensor)) matches[k]->planar = false;
   }
+}
+
+// Whether the map has the plane where the ray meets it, which no error of the range moves. A point
+// beyond the edge of a face, on another that the map lacks, is near to the plane by chance.
+bool PlaneSearch::liesWhereHit(const Correspondence& match, const Vec3& sensor) const {
+  const Vec3 ray = match.searched_at - sensor;
+  const double above = match.normal.dot(match.searched_at) - match.height;
+  const Vec3 hit = match.searched_at - above / match.normal.dot(ray) * ray;
+  const double radius = match.radius;
+  if ((hit - match.map_point).squaredNorm() < radius * radius) return true;
+  const PriorMap::Query query{toPoint(hit), match.map_index};
+  PriorMap::Nearest there;
+  map_.nearestSeenFrom(toPoint(sensor), static_cast<float>(radius), {&query, 1}, {&there, 1});
+  if (!there.found()) return false;
+  const MapPlane plane = map_.plane(there.index);
+  if (!plane.planar()) return false;
+  const Vec3 normal(static_cast<double>(plane.nx), static_cast<double>(plane.ny),
+                    static_cast<double>(plane.nz));
+  return std::abs(normal.dot(match.normal)) > kOneFaceCosine &&
+         std::abs(match.normal.dot(toVec(map_.point(there.index))) - match.height) <
+             kOneFaceThicknesses * std::sqrt(match.fit_variance);
 }
 
 void PlaneSearch::measure(Correspondence& match, std::size_t point, const Vec3& position,

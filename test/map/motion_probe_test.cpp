@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -78,6 +79,31 @@ TEST(MotionProbe, AFaceThatIsSeenIsBelieved) {
   const Counts counts = heightsIn(shaftWithLedge(3, 2, -0.6, -0.75, 1.5));
   EXPECT_EQ(counts.lied, 0);
   EXPECT_GE(counts.told, 36);
+}
+
+// What a map lacks lies near to the faces that it has, but the rays do not meet these where it has
+// them.
+TEST(ScanMatcher, WhatTheMapLacksIsNotMatchedWithTheEdgesAboutIt) {
+  constexpr double kFront_m = 2, kTop_m = -0.2, kBottom_m = -0.35;
+  const test::BoxWorld world = shaftWithLedge(3, 3 - kFront_m, kTop_m, kBottom_m, 1.5);
+  const auto onFront = [](const Vec3& p) {
+    return std::abs(p.y() - kFront_m) < 0.05 && p.z() < kTop_m - 0.01 && p.z() > kBottom_m + 0.01;
+  };
+  PointCloud cloud = test::sampleMap(world, 0.05, 0.003, 1);
+  std::erase_if(cloud.points, [&](const Point3f& p) {
+    return onFront({static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
+  });
+  const auto matcher = ScanMatcher::onto(PriorMap::build(cloud, {}), {});
+  const Pose truth{Vec3(0, -1, 0.1), Mat3::Identity()};
+  const MapMatch match = matcher->match(scanOfRings(world, truth, 1), toMrpt(truth), 0.05, 0.01);
+  ASSERT_TRUE(match.accepted());
+  const auto on_front = std::count_if(
+      match.thinned->points_body.begin(), match.thinned->points_body.end(), [&](const Point3f& p) {
+        return onFront(truth * Vec3(static_cast<double>(p.x), static_cast<double>(p.y),
+                                    static_cast<double>(p.z)));
+      });
+  EXPECT_GT(on_front, 20);
+  EXPECT_LT(match.matched, match.points - on_front * 9 / 10);
 }
 
 }  // namespace
