@@ -19,6 +19,12 @@ constexpr double kMinGapToSpread = 2.0;  // two faces: the gap against the sprea
 constexpr double kSureShare = 0.7, kFaceClean = 2.25;
 constexpr std::size_t kTriedPoints = 6;
 constexpr float kTriedSine = 0.3F;
+// Points of a face that are nearer than this, in radii, to one off it may belong to what meets it
+// there.
+constexpr float kAtEdge = 0.5F;
+// Standard deviation of the heights of what lies off a face, in thicknesses of a clean surface: up
+// to it, it is another face parallel to it.
+constexpr float kParallelSpread = 1.5F;
 constexpr std::size_t kFew = 64;  // numbers, up to which to count is quicker than to sort
 
 // Sorts a few numbers, of which there is room for four more: each goes to the place that the
@@ -103,6 +109,45 @@ PlaneMoments PlaneFit::momentsOnFace(const NearPoints& points, const Vec3f& norm
   return nearer.count < limits_.min_points ? PlaneMoments() : nearer;
 }
 
+// Whether what lies off the face leads up to it, as beyond an edge or in a corner.
+bool PlaneFit::meetsAnother(const std::vector<float>& heights_off) const {
+  if (heights_off.size() < 2) return false;
+  float sum = 0, squares = 0;
+  for (const float height : heights_off) {
+    sum += std::abs(height);
+    squares += height * height;
+  }
+  const auto count = static_cast<float>(heights_off.size());
+  const float variance = squares / count - sum * sum / (count * count);
+  const float spread = kParallelSpread * static_cast<float>(limits_.clean_thickness_m);
+  return variance > spread * spread;
+}
+
+// The face without those of its points that lie at an edge of it: what meets it there begins on
+// the face, and a plane through both turns towards it, however thin it is.
+PlaneMoments PlaneFit::withoutEdges(const NearPoints& points, const PlaneMoments& face,
+                                    float radius_sq) {
+  const auto within = static_cast<float>(kFaceWithin * limits_.clean_thickness_m);
+  const Vec3f normal = face.normal.cast<float>();
+  const auto of_face = static_cast<float>(face.normal.dot(face.centroid));
+  heights_.clear(), off_.clear(), on_.clear();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const float height = normal.dot(points[i]) - of_face;
+    const bool on = std::abs(height) <= within;
+    (on ? on_ : off_).push_back(points[i]);
+    if (!on) heights_.push_back(height);
+  }
+  if (!meetsAnother(heights_)) return face;
+  MomentSums sums;
+  for (const Vec3f& point : on_) {
+    const bool at_edge = std::any_of(off_.begin(), off_.end(), [&](const Vec3f& off) {
+      return (off - point).squaredNorm() < kAtEdge * kAtEdge * radius_sq;
+    });
+    if (!at_edge) sums.add(double{point.x()}, double{point.y()}, double{point.z()});
+  }
+  return PlaneMoments(sums);
+}
+
 // The band of heights over the plane (through the origin) that belongs to the face of the point
 // itself: where the sorted heights show a gap much wider than either side is thick, the side of the
 // point; then, what lies within three robust standard deviations of that side's median.
@@ -149,7 +194,9 @@ MapPlane PlaneFit::operator()(const NearPoints& points, float radius_sq) {
   if (findConsensus(points, near_sq, normal)) {
     const PlaneMoments face = momentsOnFace(points, normal);
     const MapPlane plane = planeOf(face, limits_);
-    if (plane.planar() && face.variances[0] <= kFaceClean * cleanVariance()) return plane;
+    if (plane.planar() && face.variances[0] <= kFaceClean * cleanVariance()) {
+      return planeOf(withoutEdges(points, face, radius_sq), limits_);
+    }
   }
   // Two faces as far apart as the neighbourhood is wide make the normal of all its points turn:
   // then the nearer half, which is mostly the point's own face, shows it better.

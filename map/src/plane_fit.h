@@ -18,6 +18,8 @@ class PlaneFit {
   /// A face among several: heights over it, in thicknesses of a clean surface, and the share of the
   /// points that must lie on it.
   static constexpr float kFaceWithin = 3, kFaceShare = 0.5F;
+  /// Share of the points from which the rest are strays: of fewer, there may be an edge.
+  static constexpr float kWholeShare = 0.8F;
 
   explicit PlaneFit(const PlaneFitLimits& limits) : limits_(limits) {}
 
@@ -32,10 +34,13 @@ class PlaneFit {
   double cleanVariance() const { return limits_.clean_thickness_m * limits_.clean_thickness_m; }
   bool findConsensus(const NearPoints& points, float near_sq, Eigen::Vector3f& normal) const;
   PlaneMoments momentsOnFace(const NearPoints& points, const Eigen::Vector3f& normal) const;
+  bool meetsAnother(const std::vector<float>& heights_off) const;
+  PlaneMoments withoutEdges(const NearPoints& points, const PlaneMoments& face, float radius_sq);
   Band ownFace(const NearPoints& points, const PlaneMoments& m);
 
   PlaneFitLimits limits_;
   std::vector<float> heights_, sorted_;
+  std::vector<Eigen::Vector3f> on_, off_;  // a face
 };
 
 }  // namespace paloc

@@ -101,7 +101,7 @@ bool BlockFitter::fitOnKnownFace(std::size_t point, float radius_sq) {
     const Neighbourhood::Face about = neighbourhood_.faceWithin(
         points_[point], radius_sq, normal, height, PlaneFit::kFaceWithin * clean_m_);
     if (static_cast<float>(about.sums.count) <
-        PlaneFit::kFaceShare * static_cast<float>(about.count))
+        PlaneFit::kWholeShare * static_cast<float>(about.count))
       continue;
     if (thickerThan(limits_.clean_thickness_m * limits_.clean_thickness_m, about.sums)) continue;
     const MapPlane plane = planeOf(PlaneMoments(about.sums), limits_);

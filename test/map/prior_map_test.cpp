@@ -211,6 +211,32 @@ TEST(PriorMap, FacesOfAThinWallAreKeptApart) {
   EXPECT_LT(wrong, map->size() / 10);
 }
 
+// A step, each face with a point in every square of 2.5 cm, thinned to 5 cm as it is read: what is
+// left at its edge are means of points of both faces.
+TEST(PriorMap, APlaneAtAnEdgeIsThatOfOneFace) {
+  std::mt19937 random(5);
+  std::normal_distribution<float> noise(0, 0.002F);
+  std::uniform_real_distribution<float> within(0, 0.025F);
+  PointCloud cloud;
+  for (int i = 0; i < 160; ++i) {
+    for (int k = 0; k < 12; ++k) {
+      const auto x = 0.025F * static_cast<float>(i), y = 0.025F * static_cast<float>(k);
+      cloud.points.push_back({x + within(random), y + within(random), noise(random)});
+      cloud.points.push_back({x + within(random), noise(random), -y - within(random)});
+    }
+  }
+  const auto map = PriorMap::build(cloud, {});
+  int planes = 0, between = 0;
+  for (std::uint32_t i = 0; i < map->size(); ++i) {
+    const MapPlane plane = map->plane(i);
+    if (!plane.planar() || plane.thickness_m > 0.005F) continue;
+    ++planes;
+    between += std::max(std::abs(plane.ny), std::abs(plane.nz)) < 0.985F ? 1 : 0;  // 10 degrees
+  }
+  EXPECT_GT(planes, static_cast<int>(map->size()) / 2);
+  EXPECT_LT(between, planes / 50);
+}
+
 TEST(PriorMap, ABushIsNotPlanar) {
   PointCloud cloud = test::sampleMap(test::emptyRoom(), 0.2, 0.003, 1);
   std::mt19937 random(9);
