@@ -89,6 +89,38 @@ TEST(SynthScenes, NothingEndsTheViewAlongTheCorridor) {
   }
 }
 
+// The noise of a range moves a point along its ray, on a wall seen aslant also along the wall. One
+// point of each voxel is kept: were it the first of the sweep, it would be too near on one side of
+// the station and too far on the other.
+TEST(SynthSurvey, WhatIsKeptOfAVoxelIsOffItsWallNeitherWay) {
+  const Scene scene = makeScene("room");
+  const Raycaster raycaster(scene.mesh);
+  SurveyModel model;
+  model.range_noise_m = 0.01;
+  model.surface_bias_m = 0;
+  const Vec3 station = scene.survey_stations.front();
+  // Above the furniture.
+  const Vec3 high(station.x(), station.y(), 2.2);
+  const double wall_x =
+      high.x() + static_cast<double>(castFrom(scene, high, {Vec3::UnitX()})[0].distance_m);
+  double count = 0, off_sum = 0, aside_sum = 0, products = 0, squares = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    for (const Point3f& p : survey(model, scene.mesh, raycaster, {station}, seed).points) {
+      const double off = static_cast<double>(p.x) - wall_x;
+      const double aside = static_cast<double>(p.y) - station.y();
+      if (std::abs(off) > 0.04 || std::abs(aside) > 1.5) continue;
+      ++count;
+      off_sum += off;
+      aside_sum += aside;
+      products += off * aside;
+      squares += aside * aside;
+    }
+  }
+  const double slope =
+      (products - off_sum * aside_sum / count) / (squares - aside_sum * aside_sum / count);
+  EXPECT_LT(std::abs(slope), 3e-5);
+}
+
 TEST(SynthScenes, TheRoundHallIsRoundAndTheTunnelSmooth) {
   const Vec3 middle(0, 0, 1.4);
   for (const RayHit& hit : castFrom(makeCircularHall(), middle, allAround())) {

@@ -12,21 +12,38 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// The voxels that hold a point already: a hash table with open addressing.
-class VoxelSet {
- public:
-  explicit VoxelSet(double edge) : edge_(edge), slots_(1U << 20U, kEmpty) {}
+struct MapPoint {
+  Point3f position;
+  float intensity = 0;
+  float lot = 0;  // of the points in a voxel, that with the lowest is kept
+};
 
-  /// True if the point's voxel was empty.
-  bool insert(const Point3f& p) {
+/// The voxels that hold a point: a hash table with open addressing.
+class Voxels {
+ public:
+  struct Voxel {
+    std::uint64_t key = kEmpty;
+    float lot = 0;  // of the point that it keeps
+    std::uint32_t point = 0;
+  };
+
+  explicit Voxels(double edge) : edge_(edge), slots_(1U << 20U) {}
+
+  /// The voxel of the point; of a new one, only the key is set.
+  Voxel& at(const Point3f& p, bool& is_new) {
     if (2 * used_ > slots_.size()) grow();
-    return put(key(p));
+    const std::uint64_t key = keyOf(p);
+    Voxel& voxel = find(key);
+    is_new = voxel.key == kEmpty;
+    if (is_new) ++used_;
+    voxel.key = key;
+    return voxel;
   }
 
  private:
   static constexpr std::uint64_t kEmpty = ~0ULL;
 
-  std::uint64_t key(const Point3f& p) const {
+  std::uint64_t keyOf(const Point3f& p) const {
     const auto cell = [&](float v) {  // 21 bits each: +-26 km at 2.5 cm
       return static_cast<std::uint64_t>(std::llround(std::floor(v / edge_)) + (1 << 20)) &
              0x1fffffU;
@@ -34,39 +51,47 @@ class VoxelSet {
     return cell(p.x) << 42U | cell(p.y) << 21U | cell(p.z);
   }
 
-  bool put(std::uint64_t key) {
+  Voxel& find(std::uint64_t key) {
     const std::size_t mask = slots_.size() - 1;
     std::size_t at = (key * 0x9e3779b97f4a7c15ULL >> 20U) & mask;
-    while (slots_[at] != kEmpty && slots_[at] != key) at = (at + 1) & mask;
-    if (slots_[at] == key) return false;
-    slots_[at] = key;
-    ++used_;
-    return true;
+    while (slots_[at].key != kEmpty && slots_[at].key != key) at = (at + 1) & mask;
+    return slots_[at];
   }
 
   void grow() {
-    std::vector<std::uint64_t> old(2 * slots_.size(), kEmpty);
+    std::vector<Voxel> old(2 * slots_.size());
     old.swap(slots_);
-    used_ = 0;
-    for (const std::uint64_t k : old) {
-      if (k != kEmpty) put(k);
+    for (const Voxel& voxel : old) {
+      if (voxel.key != kEmpty) find(voxel.key) = voxel;
     }
   }
 
   double edge_;
   std::size_t used_ = 0;
-  std::vector<std::uint64_t> slots_;
+  std::vector<Voxel> slots_;
 };
 
-struct MapPoint {
-  Point3f position;
-  float intensity = 0;
-};
+/// Keeps one point a voxel, drawn by lot: the first that a sweep comes to would be the one that its
+/// noise moved towards the sweep, and on a surface seen aslant that is off it to one side.
+void keep(const MapPoint& point, Voxels& voxels, PointCloud& cloud) {
+  bool is_new = false;
+  Voxels::Voxel& voxel = voxels.at(point.position, is_new);
+  if (!is_new && voxel.lot <= point.lot) return;
+  voxel.lot = point.lot;
+  if (is_new) {
+    voxel.point = static_cast<std::uint32_t>(cloud.points.size());
+    cloud.points.emplace_back();
+    cloud.intensity.push_back(0);
+  }
+  cloud.points[voxel.point] = point.position;
+  cloud.intensity[voxel.point] = point.intensity;
+}
 
 /// One vertical sweep of the scanner from a station.
 std::vector<MapPoint> sweep(const SurveyModel& model, const SceneMesh& mesh,
                             const Raycaster& raycaster, const std::vector<double>& surface_bias,
-                            const Vec3& station, double azimuth, RandomStream random) {
+                            const Vec3& station, double azimuth, RandomStream random,
+                            RandomStream lots) {
   const int rows = static_cast<int>((90 - model.lowest_elevation_deg) / model.angular_step_deg);
   std::vector<Eigen::Vector3f> directions;
   for (int row = 0; row < rows; ++row) {
@@ -91,7 +116,8 @@ std::vector<MapPoint> sweep(const SurveyModel& model, const SceneMesh& mesh,
                    surface_bias[hit.surface] * hit.normal_scene.cast<double>();
     points.push_back(
         {{static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())},
-         std::round(255 * mesh.surface_reflectivity[hit.surface] * cos_incidence)});
+         std::round(255 * mesh.surface_reflectivity[hit.surface] * cos_incidence),
+         static_cast<float>(lots.uniform())});
   }
   return points;
 }
@@ -107,7 +133,7 @@ PointCloud survey(const SurveyModel& model, const SceneMesh& mesh, const Raycast
   }
   const auto columns = static_cast<std::size_t>(360 / model.angular_step_deg);
   PointCloud cloud;
-  VoxelSet seen(model.spacing_m);
+  Voxels voxels(model.spacing_m);
   std::vector<std::vector<MapPoint>> sweeps(columns);
   for (std::size_t station = 0; station < stations.size(); ++station) {
     tbb::parallel_for(std::size_t{0}, columns, [&](std::size_t column) {
@@ -115,14 +141,11 @@ PointCloud survey(const SurveyModel& model, const SceneMesh& mesh, const Raycast
           2 * std::numbers::pi * static_cast<double>(column) / static_cast<double>(columns);
       sweeps[column] =
           sweep(model, mesh, raycaster, surface_bias, stations[station], azimuth,
-                RandomStream(seed, RandomPurpose::kSurvey, station * columns + column));
+                RandomStream(seed, RandomPurpose::kSurvey, station * columns + column),
+                RandomStream(seed, RandomPurpose::kSurveyLots, station * columns + column));
     });
     for (const std::vector<MapPoint>& points : sweeps) {
-      for (const MapPoint& point : points) {
-        if (!seen.insert(point.position)) continue;
-        cloud.points.push_back(point.position);
-        cloud.intensity.push_back(point.intensity);
-      }
+      for (const MapPoint& point : points) keep(point, voxels, cloud);
     }
   }
   return cloud;

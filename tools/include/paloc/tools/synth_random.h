@@ -16,7 +16,8 @@ enum class RandomPurpose : std::uint64_t {
   kRooms,
   kPose,
   kStart,
-  kMissing
+  kMissing,
+  kSurveyLots
 };
 
 /// A stream of random numbers of its own for (seed, purpose, index), so that work may be done in
