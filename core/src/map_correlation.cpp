@@ -74,4 +74,21 @@ MapFactor mapFactorOf(const MapMatch& match, double scans, double robust_width) 
   return MapFactor(fromMrpt(match.T_map_body), information, kernel);
 }
 
+double scansForOne(const MapMatch& match, double scans) {
+  using Square = Eigen::Matrix<double, 6, 6>;
+  const Square own = match.information, spread = match.shared_spread;
+  Square alone = own + spread, among = own + scans * spread;
+  const double ridge = 1e-12 * alone.diagonal().maxCoeff();
+  alone += ridge * Square::Identity();
+  among += ridge * Square::Identity();
+  return std::max(Square(alone.ldlt().solve(among)).trace() / 6, 1.0);
+}
+
+MapFactor mapFactorOfOneAmong(const MapMatch& match, double scans, double robust_width) {
+  const double for_one = scansForOne(match, scans);
+  // A whitened residual is by the root of it less than that of a scan on its own.
+  const RobustKernel kernel{RobustKernel::Kind::kHuber, robust_width / std::sqrt(for_one)};
+  return MapFactor(fromMrpt(match.T_map_body), Mat6(match.informationAmong(1) / for_one), kernel);
+}
+
 }  // namespace paloc

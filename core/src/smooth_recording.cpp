@@ -44,7 +44,7 @@ std::vector<double> putMapFactors(const EstimatorSettings& settings,
     });
     if (!has_map_factor[k]) continue;
     nodes[k].node_factors.push_back(
-        mapFactorOf(history[k].association.match, scans[k], settings.map_robust_width));
+        mapFactorOfOneAmong(history[k].association.match, scans[k], settings.map_robust_width));
   }
   return scans;
 }

@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "paloc/core/batch_smoother.h"
+#include "paloc/core/map_correlation.h"
 #include "paloc/core/surface_errors.h"
 #include "simulated_chain.h"
 
@@ -203,7 +204,8 @@ TEST(ConstantErrors, TheCovarianceHoldsWhateverTheFactorsTookTheErrorsFor) {
         }
         const MapMatch match = matchUnder(gradients, surfaces, own, kBias_m);
         node.node_factors.push_back(
-            MapFactor(boxplus(simulated.truth.T_map_body, error), match.informationAmong(scans)));
+            MapFactor(boxplus(simulated.truth.T_map_body, error),
+                      match.informationAmong(1) / scansForOne(match, scans)));
         errors.add(k, match, scans, 1);
         chain.nodes.push_back(node);
         chain.truth.push_back(simulated.truth);

@@ -98,5 +98,19 @@ TEST(MapCorrelation, TheKernelRefersToAScanOnItsOwn) {
   EXPECT_NEAR(weightOf(10 * 0.00316), 0.4, 0.02);
 }
 
+// From one, where no errors are shared, to all scans, where there are no others.
+TEST(MapCorrelation, OneAmongScansWeighsWhatItSharesWithThem) {
+  const Mat6 own = 1e6 * Mat6::Identity();
+  EXPECT_NEAR(scansForOne(matchWith(own, Mat6::Zero()), 50), 1, 1e-9);
+  EXPECT_NEAR(scansForOne(matchWith(own, 1e12 * Mat6::Identity()), 50), 50, 1e-3);
+  const MapMatch half = matchWith(own, own);
+  EXPECT_NEAR(scansForOne(half, 50), 25.5, 1e-6);
+  const MapFactor factor = mapFactorOfOneAmong(half, 50, 4);
+  ChainNode node;
+  node.node_factors.emplace_back(factor);
+  const StateMatrix hessian = linearize(nullptr, node).hessian_jj;
+  EXPECT_NEAR(hessian(0, 0), 0.5e6 / 25.5, 1);
+}
+
 }  // namespace
 }  // namespace paloc

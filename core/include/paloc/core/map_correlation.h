@@ -44,4 +44,16 @@ PALOC_EXPORT std::vector<double> scansSharingErrors(std::span<const Vec3> positi
 /// must not hide behind its small weight.
 PALOC_EXPORT MapFactor mapFactorOf(const MapMatch& match, double scans, double robust_width);
 
+/// By how much the covariance of a match among `scans` scans that share its errors is larger than
+/// that of a scan on its own, on the average over what it knows; from 1 up to `scans`.
+PALOC_EXPORT double scansForOne(const MapMatch& match, double scans);
+
+/// The map factor of a match in a recording that is smoothed as a whole, where the shared errors
+/// are considered afterwards (SurfaceErrors): it has the information of a scan on its own, divided
+/// by scansForOne(). The one above is strongest along the differences of poses that no shared error
+/// changes; there the errors that nobody knows of decide (a plane fitted across an edge, the same
+/// in every scan that sees it), and the mean of all scans then lies further off than most.
+PALOC_EXPORT MapFactor mapFactorOfOneAmong(const MapMatch& match, double scans,
+                                           double robust_width);
+
 }  // namespace paloc
