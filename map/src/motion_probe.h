@@ -39,8 +39,8 @@ class MotionProbe {
   ///
   /// Of rho(z) = z^2 / (1 + z^2 / k^2), z the residual in sigmas, k the kernel's width, the changes
   /// are summed over the points that see the motion here: twice the logarithm of how many times
-  /// likelier they are here. Clearly: 300,000 times. A point that finds no plane there counts as one
-  /// far off it.
+  /// likelier they are here. Clearly: 300,000 times. A point that finds no plane there counts as
+  /// one far off it.
   Answer ask(const Motion& motion) const;
 
  private:

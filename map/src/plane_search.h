@@ -23,7 +23,7 @@ struct Correspondence {
   double fit_variance = 0;  // of the plane's height at its centroid
   double normal_sigma = 0;
   double surface_sigma = 0;
-  double radius = 0;  // of what the plane was fitted to (m)
+  double radius = 0;               // of what the plane was fitted to (m)
   double residual = 0, sigma = 0;  // at the last pose, unweighted
   double range_factor = 0;         // normal . ray
   std::uint32_t map_index = PriorMap::kNoPoint;
