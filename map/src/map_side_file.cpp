@@ -23,7 +23,7 @@ namespace paloc {
 namespace {
 
 // To be raised whenever the same map would be prepared in another way.
-constexpr std::uint64_t kVersion = 2;
+constexpr std::uint64_t kVersion = 3;
 constexpr std::uint64_t kByteOrder = 0x0102030405060708ULL;
 constexpr char kMagic[16] = "paloc side file";
 
