@@ -20,6 +20,11 @@ constexpr double kRadiusToWidth = 2, kLeastRadiusM = 0.05;
 // Two map points are on one face when their planes are this parallel, and this near in thicknesses.
 constexpr double kOneFaceCosine = 0.9, kOneFaceThicknesses = 3;
 
+Vec3 normalOf(const MapPlane& plane) {
+  return {static_cast<double>(plane.nx), static_cast<double>(plane.ny),
+          static_cast<double>(plane.nz)};
+}
+
 }  // namespace
 
 void PlaneSearch::setPoints(AveragedPoints averaged_body, const Vec3& sensor_position_body) {
@@ -50,8 +55,7 @@ void PlaneSearch::take(Correspondence& match, const PriorMap::Nearest& nearest,
   match.distance = std::sqrt(static_cast<double>(nearest.distance_sq));
   const MapPlane plane = map_.plane(nearest.index);
   if (!plane.planar()) return;
-  match.normal = Vec3(static_cast<double>(plane.nx), static_cast<double>(plane.ny),
-                      static_cast<double>(plane.nz));
+  match.normal = normalOf(plane);
   const double across = match.normal.dot(from_sensor);
   if (across * across < kMinIncidenceCosine * kMinIncidenceCosine * from_sensor.squaredNorm())
     return;
@@ -106,9 +110,7 @@ bool PlaneSearch::liesWhereHit(const Correspondence& match, const Vec3& sensor) 
   if (!there.found()) return false;
   const MapPlane plane = map_.plane(there.index);
   if (!plane.planar()) return false;
-  const Vec3 normal(static_cast<double>(plane.nx), static_cast<double>(plane.ny),
-                    static_cast<double>(plane.nz));
-  return std::abs(normal.dot(match.normal)) > kOneFaceCosine &&
+  return std::abs(normalOf(plane).dot(match.normal)) > kOneFaceCosine &&
          std::abs(match.normal.dot(toVec(map_.point(there.index))) - match.height) <
              kOneFaceThicknesses * std::sqrt(match.fit_variance);
 }
